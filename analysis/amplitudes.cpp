@@ -1,4 +1,5 @@
-// Second and third derivatives are differences of the exact Jacobian, extrapolated to steps of 0.
+// The second and third derivatives are differences of the exact Jacobian, extrapolated to a step of
+// 0.
 #include "analysis/amplitudes.h"
 
 #include <algorithm>
@@ -11,7 +12,8 @@ namespace cascade::analysis {
 
 namespace {
 
-/// Relative changes and relative products below these limits count as errors of the differences.
+/// Relative changes and relative products below these limits count as 0, because differences have
+/// errors.
 constexpr double no_change = 1e-6, no_product = 1e-6;
 
 /// The rates as a polynomial of the change of the state: f(u) = J u + ½ Q(u, u) + ⅙ C(u, u, u).
@@ -124,8 +126,8 @@ std::optional<AmplitudeEquations> amplitude_equations(const LocalRates& rates, c
     const std::size_t axes = static_cast<std::size_t>(
         std::count(lattice.has_axis.begin(), lattice.has_axis.end(), true));
     const bool has_plane = lattice.is_continuous || axes >= 2;
-    // The waves are along the first two axes that exist. A continuous lattice has one axis, which
-    // represents all directions.
+    // The waves are along the first two axes that exist. A continuous lattice has only one axis,
+    // which represents all directions.
     const auto wave_at = [&](double across, double up) {
         Phases phases{};
         if (lattice.is_continuous) {
@@ -145,7 +147,7 @@ std::optional<AmplitudeEquations> amplitude_equations(const LocalRates& rates, c
     const Matrix at_wave = critical_jacobian.real();
     const double size = at_wave.cwiseAbs().maxCoeff();
     const auto critical = critical_wave(at_wave, 1e-6 * size);
-    // If waves travel, amplitudes are complex.
+    // If waves travel, the coefficients are complex.
     const double travels = critical_jacobian.imag().cwiseAbs().maxCoeff();
     if (!critical || travels > 1e-9 * size) return std::nullopt;
     const auto& [wave, adjoint] = *critical;

@@ -6,9 +6,9 @@
 //
 //     τ dA₁/dt = μ A₁ + v A₂* A₃* − g |A₁|² A₁ − h (|A₂|² + |A₃|²) A₁
 //
-// and two more by rotation (M. Cross and P. Hohenberg, "Pattern formation outside of equilibrium",
-// Reviews of Modern Physics 65, 1993, section IV; S. Ciliberto et al., Physical Review Letters 65,
-// 1990). Stripes have one amplitude, spots (hexagons) three equal ones.
+// and two more equations with rotated indices (M. Cross and P. Hohenberg, "Pattern formation
+// outside of equilibrium", Reviews of Modern Physics 65, 1993, section IV; S. Ciliberto et al.,
+// Physical Review Letters 65, 1990). Stripes have one amplitude, spots (hexagons) three equal ones.
 #pragma once
 
 #include "analysis/dispersion.h"
@@ -19,7 +19,7 @@ namespace cascade::analysis {
 
 /// The coefficients at an onset, per unit of time. The largest component of φ is 1.
 struct AmplitudeEquations {
-    Vector wave;           ///< φ, by species.
+    Vector wave;           ///< The wave φ, with one component for each species.
     double quadratic = 0;  ///< The coefficient v. It is set to 0 if it is only a rounding error.
     double self =
         0;  ///< The coefficient g. If it is below 0, stripes begin by a jump: they are subcritical.
@@ -36,10 +36,10 @@ struct AmplitudeEquations {
     double rate_of_stripes() const;
 };
 
-/// The equations of a flat state at the onset of a standing wave. Empty if nonlinear terms of the
-/// rates read other cells (products of derivatives, `lap(u^2)`, means, constraints), if the growth
-/// of waves depends on their direction, if a uniform change does not fade (a total is conserved),
-/// or if the wave is not critical.
+/// The equations of a flat state at the onset of a standing wave. Empty in four cases: nonlinear
+/// terms of the rates read other cells (products of derivatives, `lap(u^2)`, means, constraints);
+/// the growth of waves depends on their direction; a uniform change does not fade, because a total
+/// is conserved; or the wave is not critical.
 std::optional<AmplitudeEquations> amplitude_equations(const LocalRates& rates, const Vector& state,
                                                       const Dispersion& relation);
 

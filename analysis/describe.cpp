@@ -14,7 +14,7 @@ namespace cascade::analysis {
 
 namespace {
 
-/// The largest number of species that are named.
+/// The largest number of species whose names are shown.
 constexpr Eigen::Index most_named = 6;
 
 /// A text such as "-0.5" or "-0.5 ± 2i".
@@ -97,8 +97,7 @@ private:
         return text;
     }
 
-    /// A length in cells. If the script's unit of length is not a cell, also the length in that
-    /// unit.
+    /// A length in cells, and also in the script's unit of length if this unit is not a cell.
     std::string length(double cells) const {
         if (lattice_.is_continuous && lattice_.spacing == 1) {
             return fmt::format("{:.4g} mean distances of cells", cells);
@@ -110,7 +109,7 @@ private:
                    : fmt::format("{:.4g} cells, {:.4g} in length", cells, cells * lattice_.spacing);
     }
 
-    /// The text for a range of lengths, in the form of length().
+    /// A range of lengths, written as length() does.
     std::string lengths(double least, double most) const {
         const double spacing = lattice_.spacing;
         if (lattice_.is_continuous || spacing == 1) {
@@ -128,7 +127,7 @@ private:
                            std::atan2(d[1], d[0]) * 180 / std::numbers::pi);
     }
 
-    /// Whether the fastest growth is, up to rounding, the limit for ever longer waves.
+    /// Whether growth only approaches its maximum as waves become longer and longer.
     bool is_longest() const {
         const double apart = relation_.fastest.rate.real() - relation_.at_rest.real();
         return relation_.fastest.cells() > 1e4 ||

@@ -24,7 +24,8 @@ std::string pattern_words(const System& system, const ParameterScan& scan,
     if (by.quadratic == 0) {
         return by.ends_in_stripes() ? "stripes, grow smoothly" : "spots or squares";
     }
-    // Finds the first species that takes part in the wave. A smaller component is a rounding error.
+    // Finds the first species that takes part in the wave. Components below `least_part` are
+    // rounding errors.
     constexpr double least_part = 1e-3;
     int first = 0;
     while (first + 1 < by.wave.size() && !(std::abs(by.wave[first]) > least_part)) ++first;

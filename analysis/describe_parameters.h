@@ -11,7 +11,7 @@ namespace cascade::analysis {
 /// Turing above 21.3".
 std::string describe(const Program& program, std::uint32_t stage, const ParameterScan& scan);
 
-/// The name of the class for users. "no flat state" if there is no class.
+/// The name of the class for users, or "no flat state" if there is no class.
 std::string class_name(const std::optional<Stability>& stability);
 
 }  // namespace cascade::analysis

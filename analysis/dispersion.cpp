@@ -31,9 +31,9 @@ std::vector<std::size_t> axes_of(const Lattice& lattice) {
     return axes;
 }
 
-/// Whether rates depend only on the symbol of the Laplacian. If so, it is enough to sample waves
-/// along the diagonal, because the symbol takes all its values there. The isotropic Laplacian in
-/// space is an exception: its symbol is largest where one of the three phases is 0.
+/// Whether rates depend only on the symbol of the Laplacian. If so, waves along the diagonal
+/// suffice, because the symbol takes all its values there. The isotropic Laplacian in space is an
+/// exception: its symbol is largest where one of the three phases is 0.
 bool has_laplacian_alone(const LinearModel& model) {
     const DomainSettings& domain = model.program->domain;
     if (domain.stencil == StencilKind::isotropic && domain.grid.stencil().axes() == 3) return false;
@@ -86,7 +86,7 @@ std::vector<Direction> directions_of(const LinearModel& model, const Lattice& la
     return directions;
 }
 
-/// The k-th of `count` phases along a direction. They are denser for long waves.
+/// The k-th of `count` phases along a direction. Phases of long waves are closer together.
 double phase_of(const Direction& direction, std::size_t k, std::size_t count) {
     const double part = static_cast<double>(k) / static_cast<double>(count);
     return shortest(direction) * part * (0.1 + 0.9 * part);
@@ -129,7 +129,7 @@ public:
         return branch;
     }
 
-    /// Computes only the largest rates.
+    /// The waves along a direction with their largest rates only.
     Branch growth_along(const Direction& direction, std::size_t count) const {
         Branch branch;
         for (std::size_t k = 1; k <= count; ++k) {
@@ -139,7 +139,7 @@ public:
         return branch;
     }
 
-    /// The fastest wave near the fastest sample, by golden section.
+    /// Finds the fastest wave by golden section, beginning at the fastest sample.
     GrowingWave fastest(const Direction& direction, const Branch& branch) const {
         std::size_t best = 0;
         for (std::size_t k = 1; k < branch.phases.size(); ++k) {
@@ -275,8 +275,8 @@ std::vector<Complex> eigenvalues(const LinearModel& model, const Matrices& matri
 
 namespace {
 
-/// The dispersion relation without its curve. It is computed from waves in `directions_in`
-/// directions of a plane, `samples_along` waves along each.
+/// Computes the dispersion relation, without its curve, from `samples_along` waves in each
+/// direction. `directions_in` is the number of directions in a plane.
 Dispersion without_curve(const LinearModel& model, const Matrices& matrices, int directions_in,
                          std::size_t samples_along) {
     const Relation relation(model, matrices);
@@ -308,7 +308,7 @@ Dispersion without_curve(const LinearModel& model, const Matrices& matrices, int
 }  // namespace
 
 Dispersion quick_dispersion(const LinearModel& model, const Matrices& matrices) {
-    // Larger matrices, whose eigenvalues take longer, get fewer waves.
+    // With more than two species, eigenvalues take longer, so fewer waves are sampled.
     return without_curve(model, matrices, 8, model.species_count() <= 2 ? 48 : 24);
 }
 
@@ -338,8 +338,8 @@ std::optional<GrowingWave> fastest_fitting_wave(const LinearModel& model,
         most[axis] = static_cast<std::int64_t>(std::numbers::pi / unit[axis] + 1e-9);
         waves *= static_cast<double>(most[axis] + 1);
     }
-    // If there are so many waves that they leave hardly any gaps, it is enough to take waves along
-    // axes and diagonals.
+    // If there are so many waves that they leave hardly any gaps, waves along axes and diagonals
+    // suffice.
     const bool has_all = waves <= 20'000;
     std::optional<GrowingWave> fastest;
     const auto look = [&](std::int64_t i, std::int64_t j, std::int64_t k) {
@@ -385,7 +385,7 @@ std::vector<Complex> decaying_rates(const LinearModel& model, const Matrices& ma
     }
     const int count = lattice.has_axis[2] ? 8 : 24;
     const auto steps_along = [&](std::size_t axis) { return lattice.has_axis[axis] ? count : 0; };
-    // Opposite waves have conjugate rates, which are equally stable.
+    // Waves in opposite directions have conjugate rates, which are equally stable.
     const auto phase = [&](int k) { return std::numbers::pi * k / count; };
     for (int i = 0; i <= steps_along(0); ++i) {
         for (int j = -steps_along(1); j <= steps_along(1); ++j) {

@@ -1,4 +1,4 @@
-// The dispersion relation of a flat state: the growth rates of small waves by their length.
+// The dispersion relation of a flat state: how fast small waves grow, depending on their length.
 #pragma once
 
 #include "analysis/local_rates.h"
@@ -15,8 +15,8 @@ using Direction = std::array<double, 3>;
 /// A wave and its growth.
 struct GrowingWave {
     Direction direction{1, 0, 0};
-    /// The phase from one cell to the next along its direction, in radians. At 0 all cells change
-    /// alike.
+    /// The phase from one cell to the next along `direction`, in radians. At phase 0 all cells
+    /// change alike.
     double phase = 0;
     Complex rate;  ///< The wave grows by exp(Re rate · t) and turns by Im rate · t.
 
@@ -26,9 +26,10 @@ struct GrowingWave {
 /// Whether the imaginary part of a rate is larger than rounding errors.
 bool oscillates(Complex rate, double resolution);
 
-/// An interval of wavelengths, all of which grow.
+/// An interval of wavelengths in which all waves grow.
 struct GrowingBand {
-    /// The phases of its ends. A band may begin at 0 or end at the shortest wave of the grid.
+    /// The phases at the ends of the interval, which may begin at 0 or end at the shortest wave of
+    /// the grid.
     double least = 0, most = 0;
 };
 
@@ -52,12 +53,13 @@ struct Branch {
 
 struct Dispersion {
     Stability stability = Stability::stable;
-    Complex at_rest;                 ///< The largest rate of a uniform change.
-    GrowingWave fastest;             ///< The fastest of all waves that are not uniform.
-    std::vector<GrowingBand> bands;  ///< Along the direction of `fastest`, long waves first.
-    Branch curve;                    ///< Along the direction of `fastest`.
+    Complex at_rest;      ///< The largest rate of a uniform change.
+    GrowingWave fastest;  ///< The fastest of all waves that are not uniform.
+    /// The bands along the direction of `fastest`, long waves first.
+    std::vector<GrowingBand> bands;
+    Branch curve;  ///< The rates along the direction of `fastest`.
     bool depends_on_direction = false;
-    /// Rates of smaller magnitude than this are only rounding errors and count as 0.
+    /// Rates of smaller magnitude are only rounding errors and count as 0.
     double resolution = 0;
 
     bool grows_at_rest() const { return at_rest.real() > resolution; }
@@ -72,8 +74,8 @@ std::vector<Complex> eigenvalues(const LinearModel& model, const Matrices& matri
 /// model, the shortest wavelength is twice the mean distance between neighbours.
 Dispersion dispersion(const LinearModel& model, const Matrices& matrices);
 
-/// The same as dispersion(), but without the curve and the bands, from fewer waves and in a tenth
-/// of the time.
+/// Does the same as dispersion(), but computes neither the curve nor the bands. Samples fewer
+/// waves, and takes a tenth of the time.
 Dispersion quick_dispersion(const LinearModel& model, const Matrices& matrices);
 
 /// The fastest non-uniform wave that fits into the domain. Empty if the domain's size is unknown.

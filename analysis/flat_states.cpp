@@ -1,5 +1,5 @@
 // Newton's method with shortened steps and deflation. If totals are conserved, the Jacobian is
-// singular, so they are added as equations.
+// singular, so the equations of the totals are added.
 #include "analysis/flat_states.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ double scattered(std::uint32_t a, std::uint32_t b) {
     return (bits + 0.5) / 4294967296.0;
 }
 
-/// The usual magnitude of each species' values. Whether a change is small is judged relative to it.
+/// The usual magnitude of each species' values. It decides whether a change is small.
 Vector sizes_of(const LocalRates& rates) {
     const Vector start = rates.start();
     const double largest = start.cwiseAbs().maxCoeff();
@@ -58,8 +58,8 @@ public:
                 next = x + part * step;
                 const Vector there = residual_of(next);
                 if (!there.allFinite()) continue;
-                // If there is deflation, even a good step may raise the deflated residual, by up to
-                // a factor of two.
+                // With deflation, even a good step may enlarge the deflated residual, at most by a
+                // factor of two.
                 is_better = deflation(next) * there.norm() <
                             (known_.empty() ? 1.0 : 2.0) * deflation(x) * residual.norm();
                 if (is_better) residual = there;
@@ -108,8 +108,8 @@ private:
     }
 
 public:
-    /// Whether there are other flat states arbitrarily near. For example, epidemics have a flat
-    /// state for any number of healthy people.
+    /// Whether other flat states are arbitrarily near. For example, a model of an epidemic has a
+    /// flat state for any number of healthy people.
     bool is_in_family(const Vector& x) const {
         Matrix all(x.size() + conserved_.rows(), x.size());
         all << rates_.jacobian(x), conserved_;
@@ -118,8 +118,8 @@ public:
     }
 
 private:
-    /// Replaces values that are small compared to the species' size by 0, if the equations are then
-    /// solved equally well.
+    /// Replaces values that are small compared to the species' size by 0, if 0 solves the equations
+    /// equally well.
     Vector without_rounding_of_0(const Vector& x) const {
         Vector result = x;
         for (Eigen::Index k = 0; k < x.size(); ++k) {
@@ -140,7 +140,7 @@ private:
         const Vector rates = rates_.rates(x);
         const Matrix jacobian = rates_.jacobian(x);
         if (!rates.allFinite() || !jacobian.allFinite()) return std::nullopt;
-        // The smallest residual possible with rounded values.
+        // The smallest residual that rounded values allow.
         const Vector rounding = jacobian.cwiseAbs() * x.cwiseAbs().cwiseMax(sizes_);
         const double most = std::max(rounding.maxCoeff(), 1e-300);
         if (rates.cwiseAbs().maxCoeff() > 1e-9 * most &&
@@ -217,15 +217,16 @@ FlatStates flat_states(const LocalRates& rates) {
         if (is_admitted(rates.model(), state)) states.found.push_back({state, is_from_start});
     };
     if (const auto state = newton.from(start)) keep(*state, true);
-    if (states.conserved.rows() == rates.species_count()) return states;  // Every state is flat.
+    // All states are flat states.
+    if (states.conserved.rows() == rates.species_count()) return states;
     constexpr std::uint32_t tries = 40;
     constexpr std::size_t most_states = 12;
     for (std::uint32_t k = 0; k < tries && states.found.size() < most_states; ++k) {
         Vector guess(start.size());
         for (Eigen::Index s = 0; s < guess.size(); ++s) {
             const double at = scattered(k + 100, static_cast<std::uint32_t>(s));
-            // There are three kinds of guesses, by turns: near the starting values, between 0 and a
-            // multiple of the sizes, and with values of either sign.
+            // Three kinds of guesses alternate: near the starting values, between 0 and a multiple
+            // of the sizes, and with values of either sign.
             guess[s] = k % 3 == 0   ? start[s] + sizes[s] * (at - 0.5)
                        : k % 3 == 1 ? sizes[s] * std::exp(8 * (at - 0.7))
                                     : sizes[s] * 6 * (at - 0.5);

@@ -17,9 +17,9 @@ struct FlatState {
 struct FlatStates {
     /// The flat states. If Newton's method finds one from the starting values, it is the first.
     std::vector<FlatState> found;
-    /// Each row is a combination of species whose total the reaction conserves. If there are any,
-    /// flat states come in families. `found` then has the members of these families with the totals
-    /// of the starting values.
+    /// Each row is a combination of species whose total the reaction conserves. If there are such
+    /// combinations, flat states come in families, and `found` has the members of these families
+    /// with the totals of the starting values.
     Matrix conserved;
 };
 

@@ -1,4 +1,4 @@
-// For each time, analyses the stage with this number in place of t.
+// Analyses the stage at several times. Each time replaces t as a number.
 #include "analysis/growing_domain.h"
 
 #include "analysis/stage_analysis.h"

@@ -21,7 +21,7 @@ public:
     std::shared_ptr<const WaveKernel> at(std::span<const double> varied) const;
     bool has_too_many_lags(std::span<const double> varied) const;
 
-    /// The limit keeps the analysis of a stage within a few tenths of a second.
+    /// With at most so many lags, the analysis of a stage takes a few tenths of a second.
     static constexpr std::int64_t most_lags = std::int64_t{1} << 16;
 
 private:

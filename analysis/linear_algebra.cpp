@@ -1,5 +1,5 @@
-// Linear systems and singular values. This file and eigenvalues.cpp are the only ones that include
-// more of Eigen than its matrices.
+// Linear systems and singular values. Only this file and eigenvalues.cpp include more of Eigen than
+// its matrices.
 #include "analysis/linear_algebra.h"
 
 #include <Eigen/LU>

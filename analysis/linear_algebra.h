@@ -35,8 +35,8 @@ Vector solution_of(const Matrix& matrix, const Vector& right);
 /// singular.
 double least_pivot(const Matrix& matrix);
 
-/// The x for which matrix · x − right has the least length. If there are several, the shortest. The
-/// matrix has as many rows as `right` and any number of columns.
+/// The x for which matrix · x − right is shortest, and the shortest such x if there are several.
+/// The matrix has as many rows as `right` and any number of columns.
 Vector least_squares(const Matrix& matrix, const Vector& right);
 /// Does the same as least_squares() for each column of `right`.
 ComplexMatrix least_squares(const ComplexMatrix& matrix, const ComplexMatrix& right);

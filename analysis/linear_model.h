@@ -22,11 +22,11 @@
 
 namespace cascade::analysis {
 
-/// A term of the Jacobian: a matrix, and the operators by whose symbol it is multiplied.
+/// A term of the Jacobian: a matrix, and the operators by whose symbols it is multiplied.
 struct JacobianTerm {
     OperatorProduct operators;
-    std::vector<NodeId> entries;  ///< The entry for a rate and a variable has the index rate ·
-                                  ///< variable_count + variable.
+    /// The entry for a rate and a variable has the index rate · variable_count + variable.
+    std::vector<NodeId> entries;
 };
 
 /// The kernel of a convolution, as formulas.
@@ -43,8 +43,8 @@ struct KernelFormula {
 struct LinearModel {
     const Program* program = nullptr;
     std::uint32_t stage = 0;
-    /// Contains all formulas below. Their leaves are species, `varied`, sums of kernels, and
-    /// unknowns.
+    /// Contains all formulas of the members below. Their leaves are species, `varied`, sums of
+    /// kernels, and unknowns.
     Algebra algebra;
     std::vector<ItemId> species;
     /// The fields of constraints. A field comes after the fields on which it depends.
@@ -53,8 +53,8 @@ struct LinearModel {
     std::vector<KernelFormula> kernels;  ///< Operators refer to kernels by index.
     IdVector<ItemId, StartValue> starts;
     std::vector<NodeId> rates;  ///< The rates of species, then of constraints.
-    std::vector<JacobianTerm>
-        terms;  ///< The first term belongs to the value itself, without operators.
+    /// The first term is the response to the value itself, without operators.
+    std::vector<JacobianTerm> terms;
     std::vector<ItemId> parameters;  ///< The parameters that rates read, in order of writing.
     bool reads_time = false;         ///< Whether rates read `t`, which counts as 0.
     bool has_noise = false;  ///< Whether rates draw random numbers, which count as their mean.

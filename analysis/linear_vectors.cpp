@@ -1,5 +1,5 @@
-// A vector has slopes at the faces across each axis. Where a factor is needed at a face, it is
-// averaged by the rules of lang/lower/lower_vectors.cpp.
+// A vector has slopes at the faces across each axis. A factor that is needed at a face is averaged
+// by the rules of lang/lower/lower_vectors.cpp.
 #include "analysis/lineariser.h"
 #include "lang/program/vector_functions.h"
 
@@ -32,7 +32,7 @@ Result<void> Lineariser::add_tensor(const Node& node, Part& part) {
     return {};
 }
 
-/// Computes the LinearPart of a vector from those of its operands.
+/// Computes the LinearPart of a vector from the LinearParts of its operands.
 struct Lineariser::OfVectors {
     Lineariser& own;
     Part& part;

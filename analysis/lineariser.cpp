@@ -53,7 +53,7 @@ LinearPart Lineariser::nothing() const {
     return part;
 }
 
-/// The node with its operands replaced by their flat values.
+/// A copy of the node in which the operands are replaced by their flat values.
 Node Lineariser::of_values(const Node& node) const {
     Node valued = node;
     for (std::size_t n = 0; n < node.operand_count; ++n) {
@@ -245,7 +245,7 @@ void Lineariser::add_advection(const Node& node, Part& part) {
     }
 }
 
-/// Replaces transport by central differences. Long waves have the same speed with these. The
+/// Replaces transport by central differences, with which long waves have the same speed. The
 /// limited slopes of transport are not linear in the values. Their small damping is ignored.
 void Lineariser::add_transport(const Node& node, Part& part) {
     const std::size_t velocities = node.operand_count - 1;
@@ -267,8 +267,8 @@ void Lineariser::add_diffusion(const Node& node, Part& part) {
         algebra_.product(algebra_.number(2), a12));
 }
 
-/// The value in the next cell is the value plus the difference to that cell. Longer shifts repeat
-/// this.
+/// The value in the next cell is the value plus the difference to that cell. A longer shift repeats
+/// this step.
 void Lineariser::add_shift(const Node& node, Part& part) {
     part.value[0] = this->part(node, 0).value[0];
     part.slopes = this->part(node, 0).slopes;

@@ -17,7 +17,7 @@ using Slopes = std::vector<Slope>;  ///< One per variable.
 
 /// A subexpression of a rate, linearised around a flat state.
 struct LinearPart {
-    /// The value of a number is the first element. For a vector, the elements are its components.
+    /// The value of a number, or the components of a vector. A number uses only the first element.
     std::array<NodeId, 3> value{};
     TensorMatrix matrix{};  ///< The value of a tensor.
     Slopes slopes;          ///< The slopes of a number.

@@ -1,5 +1,5 @@
-// Four tapes with the same inputs. A constraint is linear in its field, so its residuals for two
-// trial fields determine the field that solves it.
+// Evaluates four tapes with the same inputs. A constraint is linear in its field, so its residuals
+// for two trial fields determine the field that solves it.
 #include "analysis/local_rates.h"
 
 #include <algorithm>
@@ -38,7 +38,7 @@ std::vector<NodeId> entries_of(const LinearModel& model) {
     return nodes;
 }
 
-/// The matrix whose entries are stored by rate, then by variable, from `first` on.
+/// A matrix from its entries, which are stored from `first` on, by rate and then by variable.
 Matrix matrix_of(const std::vector<double>& entries, std::size_t first, Eigen::Index count) {
     using ByRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
     return Eigen::Map<const ByRows>(entries.data() + first, count, count);
@@ -71,8 +71,8 @@ ComplexMatrix jacobian_of(const LinearModel& model, const Matrices& matrices,
             symbol(model.terms[k].operators, lattice, matrices.kernels, phases) * matrices.terms[k];
     }
     if (model.unknowns.empty()) return sum;
-    // If the field has no effect on its constraint for a wave, the field is 0 for this wave. An
-    // example is the mean of a potential.
+    // If the field has no effect on its constraint for some wave, as for the mean of a potential,
+    // the field is 0 for this wave.
     const auto species = static_cast<Eigen::Index>(model.species_count());
     const auto unknowns = static_cast<Eigen::Index>(model.unknowns.size());
     ComplexMatrix by_unknowns = sum.bottomRightCorner(unknowns, unknowns);

@@ -1,4 +1,4 @@
-// The colours can also be distinguished by colour-blind readers (M. Okabe, K. Ito, "Color Universal
+// Takes colours that colour-blind readers can distinguish (M. Okabe, K. Ito, "Color Universal
 // Design").
 #include "analysis/map_plot.h"
 

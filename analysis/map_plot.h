@@ -11,7 +11,7 @@ namespace cascade::analysis {
 
 struct MapLabels {
     std::string title, across, up;
-    std::array<double, 2> present{};  ///< The values in the script.
+    std::array<double, 2> present{};  ///< The values of the two parameters in the script.
 };
 
 Drawing plot_map(const ParameterMap& map, const MapLabels& labels);

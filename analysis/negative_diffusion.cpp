@@ -34,7 +34,7 @@ public:
 
 private:
     /// Whether the starting value of a node is its value at all times. For other nodes, such as
-    /// sums over the domain, it is an estimate.
+    /// sums over the domain, the starting value is only an estimate.
     static bool is_plain(const Node& node) {
         const bool is_function = node.is<Call>() && is_elementary(node.function);
         return is_function || node.is<double>() || node.is<ItemId>();

@@ -9,10 +9,10 @@
 
 namespace cascade::analysis {
 
-/// A message such as "v has a negative diffusion coefficient, -0.08: …", for the first species
-/// whose coefficient is the same negative number in all cells and at all times, and which no higher
-/// power of lap damps. Empty if there is no such species, or if the coefficient is not known before
-/// the run.
+/// A message such as "v has a negative diffusion coefficient, -0.08: …". It names the first species
+/// whose coefficient is the same negative number in all cells and at all times, and whose short
+/// waves no higher power of lap damps. Empty if there is no such species, or if the coefficient is
+/// not known before the run.
 std::optional<std::string> negative_diffusion(const Program& program, std::uint32_t stage);
 
 }  // namespace cascade::analysis

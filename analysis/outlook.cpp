@@ -1,5 +1,5 @@
-// Checks strictly that nothing but noise makes cells differ: no starting value, parameter, side or
-// rate.
+// Checks strictly that no starting value, parameter, side or rate makes cells differ, so that noise
+// alone does.
 #include "analysis/outlook.h"
 
 #include "analysis/stage_analysis.h"
@@ -55,8 +55,8 @@ bool starts_with_noise_alone(const LinearModel& model) {
     return has_noise;
 }
 
-/// A quick test that makes starts_with_noise_alone() unnecessary for most stages. It is false for
-/// stages that draw no random numbers or continue from the pattern of an earlier stage.
+/// A quick test before starts_with_noise_alone(). Most stages fail it, because they draw no random
+/// numbers or continue from the pattern of an earlier stage.
 bool may_start_with_noise(const Program& program, std::uint32_t number) {
     const Stage& stage = program.stages[number];
     const auto is_pattern = [&](const Node& node) {
@@ -84,7 +84,8 @@ bool is_weak(const Vector& scatter, const Vector& state, const Vector& start) {
 /// Advice to the user: which species needs the least additional diffusion so that a wave grows, and
 /// by which factor its diffusion must be multiplied.
 std::string remedy(const LinearModel& model, const Matrices& matrices) {
-    if (model.has_nonlocal_parts()) return "";  // Scaling would change more than diffusion.
+    // The factor would also change terms other than diffusion.
+    if (model.has_nonlocal_parts()) return "";
     const auto grows_with = [&](Eigen::Index species, double factor) {
         Matrices scaled = matrices;
         for (std::size_t k = 1; k < scaled.terms.size(); ++k) {
@@ -110,7 +111,7 @@ std::string remedy(const LinearModel& model, const Matrices& matrices) {
                        std::ceil(least * 100) / 100);
 }
 
-/// The duration of the stage. Empty if it is not known before it runs.
+/// The duration of the stage. Empty if it is not known before the stage runs.
 std::optional<double> duration_of(const LinearModel& model) {
     const Stage& stage = model.program->stages[model.stage];
     if (stage.time.duration) return stage.time.duration;

@@ -1,4 +1,4 @@
-// Says why a stage will stay uniform, if that is certain before it runs.
+// Says why a stage will stay uniform, if that is certain before the stage runs.
 #pragma once
 
 #include "lang/program/program.h"

@@ -27,7 +27,7 @@ public:
         sizes_ = sizes_.cwiseMax(0.1 * std::max(sizes_.maxCoeff(), 1e-3));
     }
 
-    /// The flat state near a known one. Empty if Newton's method finds none or jumps to another.
+    /// The flat state near `beside`. Empty if Newton's method finds none or jumps to another.
     Place at(const std::vector<double>& values, const std::optional<Vector>& beside) {
         rates_.set_varied(values);
         // Conserved totals follow from the starting values, which may depend on the parameters.
@@ -74,8 +74,8 @@ public:
     }
 
 private:
-    /// Whether Newton's method has jumped to another flat state. A large change alone is no jump if
-    /// it is as large as the derivative of the state by the parameter predicts.
+    /// Whether Newton's method has jumped to another flat state. A large change is no jump if the
+    /// derivative of the state by the parameter predicts a change of that size.
     bool has_jumped(const Vector& from, const Vector& to) const {
         const Vector scale = sizes_.cwiseMax(from.cwiseAbs());
         const auto distance = [&](const Vector& change) {
@@ -104,8 +104,8 @@ Result<double> present_value(const Program& program, std::uint32_t stage, ItemId
     return *number;
 }
 
-/// By bisection, finds the critical value between two values that have different classes. `step` is
-/// a small change of the parameter.
+/// Finds the critical value between two values with different classes, by bisection. `step` is a
+/// small change of the parameter.
 CriticalValue bisected(Follower& follower, double low, double high, const Place& at_low,
                        const Place& at_high, double step) {
     Place below = at_low, above = at_high;
@@ -152,14 +152,14 @@ Result<ParameterScan> scan_parameter(const Program& program, std::uint32_t stage
     ParameterScan scan{span, *present, {}, {}, {}};
     const int parts = model->species_count() <= 2 ? 64 : 32;
     const double middle = std::clamp(*present, span.low, span.high);
-    // Values stay slightly inside the range, because a parameter that is 0 at one of its ends may
-    // make a division impossible.
+    // Values stay slightly inside the range, because a parameter that is 0 at an end of its range
+    // may cause a division by 0.
     const double inwards = 1e-6 * (span.high - span.low);
     const double small = 1e-4 * (span.high - span.low);
     const auto walk = [&](double end) {
         double last = *present;
         Place before = follower.at({last}, state);
-        // On the way to the range from a value outside it, no change of class is reported.
+        // Changes of class on the way to the range from a value outside are not reported.
         if (middle != last) {
             for (int k = 1; k <= parts; ++k) {
                 before = follower.at({last + (middle - last) * k / parts}, before.state);
@@ -183,7 +183,7 @@ Result<ParameterScan> scan_parameter(const Program& program, std::uint32_t stage
     scan.at_low = walk(span.low + inwards);
     scan.at_high = walk(span.high - inwards);
     for (CriticalValue& change : scan.changes) {
-        // A value much smaller than the range is a rounding error of 0.
+        // A value much smaller than the range is 0 with a rounding error.
         if (std::abs(change.value) < 1e-8 * (span.high - span.low)) change.value = 0;
     }
     std::sort(scan.changes.begin(), scan.changes.end(),
@@ -275,8 +275,8 @@ std::size_t MapFiller::nearest_line(const ParameterSpan& span, double at) const 
     return best;
 }
 
-/// The flat state at (i, j). Begins with the state `beside` at the parameters `from`, and follows
-/// it in `parts` steps.
+/// Finds the flat state at (i, j). Follows it in `parts` steps from the state `beside` at the
+/// parameters `from`.
 Place MapFiller::reach(const std::vector<double>& from, std::optional<Vector> beside, std::size_t i,
                        std::size_t j, int parts) {
     Place found;

@@ -1,4 +1,4 @@
-// The dependence of a flat state's class (its Stability) on parameters: critical values of one
+// How a flat state's class (its Stability) depends on parameters: the critical values of one
 // parameter, or a map over two parameters.
 #pragma once
 
@@ -25,9 +25,10 @@ struct CriticalValue {
     /// The classes below and above the value. Empty where the flat state does not exist.
     std::optional<Stability> below, above;
     double cells = 0;  ///< The length of the fastest wave at this value, or NaN.
-    /// At the onset of standing waves: the result of amplitude_equations(), if it is known.
+    /// At the onset of standing waves, the result of amplitude_equations(), if there is one.
     std::optional<AmplitudeEquations> amplitudes = {};
-    /// The value at which stripes replace spots according to `amplitudes`; NaN if they do not.
+    /// The value at which stripes replace spots according to `amplitudes`; NaN if stripes never
+    /// replace spots.
     double stripes = std::numeric_limits<double>::quiet_NaN();
 };
 

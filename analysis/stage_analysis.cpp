@@ -30,8 +30,8 @@ bool is_stable(const StepPolynomial& polynomial, Complex z) {
     return std::norm(sum) <= 1 + 1e-12;
 }
 
-/// The distance from 0 at which a ray from 0 leaves the region of stability. `angle` is the ray's
-/// angle to the negative axis, 0 … π/2.
+/// The distance from 0 at which a ray leaves the region of stability. The ray begins at 0, and
+/// `angle` is its angle to the negative axis, 0 … π/2.
 double reach(const StepPolynomial& polynomial, double angle) {
     const Complex direction = std::polar(1.0, std::numbers::pi - angle);
     constexpr double most = 8;

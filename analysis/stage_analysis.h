@@ -16,14 +16,14 @@ namespace cascade::analysis {
 
 struct StableStep {
     Solver solver = Solver::euler;
-    /// The largest stable step in the unit of time of the rates. Infinite if nothing fades, 0 if no
+    /// The largest stable step in the unit of time of the rates. Infinite if nothing fades; 0 if no
     /// step is stable.
     double step = 0;
 };
 
 /// The largest stable steps of euler, rk2, rk4, rk23 and rk45, from the polynomial by which each
 /// solver multiplies a wave in a step (E. Hairer, G. Wanner, "Solving Ordinary Differential
-/// Equations II", 1996, section IV.2). `rates` are eigenvalues whose real part is not above 0.
+/// Equations II", 1996, section IV.2). `rates` are eigenvalues whose real parts are at most 0.
 std::vector<StableStep> stable_steps(std::span<const Complex> rates);
 
 struct StateAnalysis {
@@ -43,15 +43,15 @@ struct StageAnalysis {
     std::optional<double> step;  ///< The time step, if it is the same in all cells and fixed.
 };
 
-/// The length of the stage's steps. Empty if it differs between cells, or if the stage adapts it
-/// while it runs.
+/// The length of the stage's steps. Empty if this length differs between cells or is adapted during
+/// the stage.
 std::optional<double> fixed_step(const LinearModel& model);
 
 /// Analyses a stage. Fails if linear_model() fails. The program must outlive the result.
 Result<StageAnalysis> analyze_stage(const Program& program, std::uint32_t stage);
 
-/// The most interesting state: the first state that is stable against uniform changes and from
-/// which waves grow. If there is none, the first of all states. There must be at least one.
+/// The most interesting state: the first state from which waves grow although it is stable against
+/// uniform changes or, if there is none, the first of all states. There must be at least one state.
 const StateAnalysis& state_to_show(const StageAnalysis& analysis);
 
 /// A text such as "u = 1, v = 0.9". Names at most six species.

@@ -46,7 +46,7 @@ private:
         if (const auto* there = node.as<StageItem>()) {
             StartValue value =
                 there->stage < earlier_.size() ? earlier_[there->stage][there->item] : none_;
-            // If the formula reads a species of an earlier stage, it gets the pattern of that
+            // A formula that reads a species of an earlier stage gets the final pattern of that
             // stage.
             value.differs |= program_.system_of(there->stage).is_species(there->item);
             return value;
@@ -102,7 +102,7 @@ private:
                 result.scatter = spread(node, of(0), of(1));
                 return result;
             case FunctionKind::pattern:
-                // Smooth noise counts as random, like random numbers that are drawn for each cell.
+                // Smooth noise counts as random, like a random number that is drawn for each cell.
                 if (node.function != Function::noise) return elsewhere(true, false);
                 result.scatter = algebra_.number(0.5);
                 return result;

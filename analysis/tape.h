@@ -1,4 +1,5 @@
-// Formulas as a list of operations on numbers, for fast evaluation at thousands of parameters.
+// Formulas as a list of operations on numbers, for fast evaluation with thousands of values of
+// parameters.
 #pragma once
 
 #include "lang/calculus/algebra.h"
@@ -24,11 +25,11 @@ private:
         std::uint32_t a, b, c, to;
     };
 
-    /// The initial value of each register: first the inputs, then numbers; 0 for results of
-    /// operations.
+    /// The initial value of each register. The inputs come first, then the numbers. Registers of
+    /// results are 0.
     std::vector<double> numbers_;
     std::vector<Step> steps_;
-    std::vector<std::uint32_t> results_;  ///< The registers of results.
+    std::vector<std::uint32_t> results_;  ///< The register of each result.
 };
 
 }  // namespace cascade::analysis

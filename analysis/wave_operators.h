@@ -1,8 +1,8 @@
 // The effect of the discrete operators of the language on a wave.
 //
 // Each operator multiplies the wave exp(i θ·n), where n is the number of the cell along each axis,
-// by a factor, its symbol. The symbol of nested operators is the product of their symbols. So a
-// linear formula is a sum of products of these few operators.
+// by a factor, its symbol. The symbol of nested operators is the product of their symbols. So the
+// symbol of a linear formula is a sum of products of these few symbols.
 #pragma once
 
 #include "core/grid.h"
@@ -44,8 +44,8 @@ private:
 /// The kernels of a model, by index.
 using WaveKernels = std::vector<std::shared_ptr<const WaveKernel>>;
 
-/// One of the discrete operators: for example a difference along one axis or along all axes, by the
-/// stencil of the domain.
+/// A discrete operator, such as a difference along one axis or along all axes by the stencil of the
+/// domain.
 struct WaveOperator {
     // clang-format off
     enum class Kind : std::uint8_t {
@@ -61,8 +61,8 @@ struct WaveOperator {
     friend auto operator<=>(const WaveOperator&, const WaveOperator&) = default;
 };
 
-/// A product of operators. Their order does not change the product, so they are sorted in
-/// increasing order. Empty for the value itself.
+/// A product of operators. The order of the operators does not change the product, so they are
+/// sorted in increasing order. An empty product leaves a value unchanged.
 using OperatorProduct = std::vector<WaveOperator>;
 OperatorProduct followed_by(OperatorProduct first, WaveOperator then);
 
@@ -73,8 +73,8 @@ struct Lattice {
     std::array<bool, 3> has_axis{};  ///< Whether the grid has several cells along each axis.
     std::array<double, 3> cells{};   ///< The number of cells along each axis; 0 if unknown.
     std::array<bool, 3> is_periodic{};
-    /// Whether there are no axes, as on a model or a curved surface. Derivatives are then exact:
-    /// lap is −k². The first axis represents any direction.
+    /// Whether there are no axes, as on a model or a curved surface. Derivatives are then exact
+    /// (lap is −k²), and the first axis represents all directions.
     bool is_continuous = false;
     StencilKind stencil = StencilKind::cross;
 };

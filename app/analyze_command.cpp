@@ -1,4 +1,4 @@
-// The command `cascade analyze` predicts what will grow in a run.
+// The command `cascade analyze` predicts from its equations what will grow in a run.
 #include "app/commands.h"
 #include "app/exit_status.h"
 #include "run/stage/kernel_cache.h"

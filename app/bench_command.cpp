@@ -1,4 +1,4 @@
-// The command `cascade bench` measures the speed of scripts' steps.
+// The command `cascade bench` measures the speed of the steps of scripts.
 #include "app/bench_table.h"
 #include "app/commands.h"
 #include "app/exit_status.h"
@@ -22,7 +22,7 @@ int bench_one(const std::string& path, const Options& options, RunControl& contr
     Script& script = file->script;
     console.say(script.messages(console.error().colour));
     if (!script.program) return exit_status::wrong_script;
-    script.diagnostics = {};  // These warnings have been printed.
+    script.diagnostics = {};  // The warnings in it have already been printed.
 
     BenchRequest request = options.bench;
     request.simulation = options.run.simulation;

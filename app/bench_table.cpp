@@ -26,7 +26,8 @@ std::string sides_of(const StageBench& bench) {
     return describe_sides(grid) + " cells";
 }
 
-/// Prints at most one decimal. Only the mean number of a model's links is not an integer.
+/// Formats a number with at most one decimal. Every number here is an integer, except the mean
+/// number of links per cell of a model.
 std::string number(double value) {
     return std::abs(value - std::round(value)) < 0.05 ? fmt::format("{:.0f}", value)
                                                       : fmt::format("{:.1f}", value);
@@ -48,7 +49,7 @@ std::string line(std::string_view name, const std::string& text) {
     return fmt::format("  {:<17} {}\n", name, text);
 }
 
-/// Prints a count per cell. The count may be a mean, such as the mean number of loaded links.
+/// Formats a count per cell. The count may be a mean, such as the mean number of loaded links.
 std::string mean_count(double count, std::string_view one, std::string_view many) {
     const std::string text = number(count);
     return fmt::format("{} {}", text, text == "1" ? one : many);

@@ -51,8 +51,8 @@ Result<std::string> read_standard_input() {
 
 namespace {
 
-/// Loads the log of a session from a file. As for a log in a picture, the script is the last one of
-/// the session.
+/// Loads the log of a session from a file. The loaded script is the last script of the session, as
+/// it is for a log in a picture.
 Result<LoadedFile> load_session_file(const std::filesystem::path& path, const Overrides& options) {
     auto text = read_file(path, largest_session_log);
     if (!text) return tl::unexpected(text.error());
@@ -79,13 +79,14 @@ Result<LoadedFile> load_file(const std::string& path, const Overrides& overrides
                                       merge(typed->overrides, overrides)),
                           ""};
     }
-    need_whole_program();  // Another program could not read the input again.
+    need_whole_program();  // The whole program cannot read input that this program has read.
     auto text = read_standard_input();
     if (!text) return tl::unexpected(text.error());
     return LoadedFile{load_script("<standard input>", std::move(*text), ".", overrides), ""};
 }
 
-/// A hint for a path that does not exist but has the name of an example. Empty for other names.
+/// Returns a hint for a path that does not exist but has the name of an example. Returns an empty
+/// string for other paths.
 std::string advice_on_example(const std::filesystem::path& path) {
     const auto examples = read_examples();
     if (!examples) return "";
@@ -96,8 +97,8 @@ std::string advice_on_example(const std::filesystem::path& path) {
                        named.front()->name, stem);
 }
 
-/// A hint for a path that does not exist. If `path` is the name of a system, the hint suggests
-/// `cascade new`. Otherwise it names a file with a similar name.
+/// Returns a hint for a path that does not exist. If `path` is the name of a system, the hint
+/// suggests `cascade new`. Otherwise it names a file with a similar name.
 std::string advice_on_missing(const std::filesystem::path& path) {
     std::error_code error;
     if (std::filesystem::exists(path, error)) return "";
@@ -124,8 +125,8 @@ std::string advice_on_missing(const std::filesystem::path& path) {
     return fmt::format("did you mean '{}'?", beside.string());
 }
 
-/// A summary, "2 stages, 35000 steps, 64 × 64 cells". The number of steps is left out if it is only
-/// known after a run.
+/// Summarises a script: "2 stages, 35000 steps, 64 × 64 cells". The number of steps is left out if
+/// it is known only after a run.
 std::string summary(const Script& script) {
     const Program& program = *script.program;
     std::int64_t steps = 0;
@@ -141,7 +142,7 @@ std::string summary(const Script& script) {
                        describe_sides(program.domain.grid));
 }
 
-/// The members of --json that describe a checked script.
+/// Returns the members of --json that describe a checked script.
 nlohmann::ordered_json facts_of(const Script& script) {
     nlohmann::ordered_json facts = {{"file", script.name},
                                     {"is_correct", script.program != nullptr}};
@@ -200,7 +201,7 @@ void print_list_line(std::string_view name, std::string_view about, Console& con
     const auto columns = static_cast<std::size_t>(console.out().columns());
     if (console.out().is_terminal && line.size() > columns) {
         std::size_t end = columns > 2 ? columns - 2 : 0;
-        // Does not cut inside a UTF-8 character.
+        // Moves the end of the cut line back to the beginning of a UTF-8 character.
         while (end > 0 && (line[end] & 0xc0) == 0x80) --end;
         line = line.substr(0, end) + "…";
     }

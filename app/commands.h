@@ -1,4 +1,4 @@
-// The commands of the program. Each receives options and returns an exit status.
+// The commands of the program. Each command receives options and returns an exit status.
 #pragma once
 
 #include "app/console.h"
@@ -36,8 +36,8 @@ int export_command(const Options& options, Console& console);
 int lsp_command(const Options& options, Console& console);
 int repl_command(const Options& options, Console& console);
 
-/// The ways to use a command at the prompt. With `of_script`, ':check' does the same as 'cascade
-/// check', for the script typed so far.
+/// Whether and how a command can be used at the prompt. A command with `of_script` works on the
+/// script typed so far: ':check' checks it as 'cascade check' checks a file.
 enum class AtPrompt { absent, plain, of_script };
 
 struct CommandEntry {
@@ -50,7 +50,7 @@ struct CommandEntry {
     void (*add_options)(CLI::App& command, Options& options);
 };
 
-/// All commands of the program.
+/// Returns all commands of the program.
 std::span<const CommandEntry> command_table();
 
 /// Prints features. If a feature does not exist, such as the wavelength of a uniform field, prints
@@ -60,17 +60,18 @@ void print_features(const measure::Features& features, Console& console);
 /// Prints a line of a list. In a terminal, cuts it at the terminal's width.
 void print_list_line(std::string_view name, std::string_view about, Console& console);
 
-/// Makes a display that draws a bar in a terminal, prints lines to a pipe, and shows nothing if
-/// `quiet`.
+/// Makes a display of progress. It draws a bar in a terminal, prints lines to a pipe, and shows
+/// nothing if `quiet` is true.
 ProgressDisplay make_progress_display(const Console& console, bool quiet);
 
-/// Loads a script or a picture. The path "-" means the script typed at the prompt, or standard
-/// input if `typed` is null. Prints an error if the file cannot be read.
+/// Loads a script or a picture. The path "-" means the script typed at the prompt or, if `typed` is
+/// null, standard input. Prints an error if the file cannot be read.
 std::optional<LoadedFile> load(const std::string& path, const Overrides& overrides,
                                const Console& console, const TypedScript* typed = nullptr);
 
-/// The session that the picture `file` contains. Empty if there is none or if `changes` make the
-/// run differ from it. Prints a note about the session unless `quiet`.
+/// Returns the session that the picture `file` contains, and prints a note about it unless `quiet`
+/// is true. Returns an empty optional if the picture contains no session, or if `changes` make the
+/// run differ from the session.
 Result<std::optional<SessionLog>> session_to_play(const LoadedFile& file, Overrides changes,
                                                   const Console& console, bool quiet);
 

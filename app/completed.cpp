@@ -58,7 +58,8 @@ bool is_known(const std::string& name, Completed& values) {
     return false;
 }
 
-/// The words in "N|faces|vertices" that a user types as they are, without the placeholder N.
+/// Returns the words of a placeholder that a user types as they are. For "N|faces|vertices", these
+/// are all words but N, which stands for a number.
 std::vector<std::string> words_in(std::string_view value) {
     std::vector<std::string> words;
     while (!value.empty()) {

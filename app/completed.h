@@ -14,12 +14,13 @@ struct Completed {
     enum class Kind { nothing, words, files, folders };
     Kind kind = Kind::nothing;
     std::vector<std::string> words;
-    std::vector<std::string> endings;  ///< Of files, ".cascade". Empty if any file is possible.
+    /// The endings of possible files, such as ".cascade". Empty if any file is possible.
+    std::vector<std::string> endings;
 };
 
-/// The values of an option, derived from the placeholder of its value: "FILE.csv", "sun|studio".
+/// Derives the values of an option from the placeholder of its value: "FILE.csv", "sun|studio".
 Completed values_of(const ManualOption& option);
-/// The values of a command's arguments.
+/// Derives the values of a command's arguments from their placeholders.
 Completed arguments_of(const ManualCommand& command);
 
 }  // namespace cascade

@@ -14,13 +14,14 @@ using Kind = Completed::Kind;
 
 constexpr std::string_view origin = "# Made from the tables of 'cascade --help'.\n";
 
-/// The first sentence of a description, in one line.
+/// Returns the first sentence of a description, in one line.
 std::string in_short(std::string about) {
     std::replace(about.begin(), about.end(), '\n', ' ');
     return about.substr(0, about.find_first_of(";"));
 }
 
-/// A word in single quotes. `inner` replaces a quote inside the word, as the shell requires.
+/// Puts a text into single quotes. `inner` replaces each quote inside the text, as the shell
+/// requires.
 std::string quoted(const std::string& text, std::string_view inner) {
     std::string out = "'";
     for (const char c : text) {
@@ -44,7 +45,7 @@ std::string names_of(const std::vector<ManualCommand>& commands) {
     return fmt::format("{}", fmt::join(names, " "));
 }
 
-/// A command of bash that adds the possible values to COMPREPLY.
+/// Returns a command of bash that adds the possible values to COMPREPLY.
 std::string in_bash(const Completed& values) {
     switch (values.kind) {
         case Kind::nothing: return ":";
@@ -55,7 +56,7 @@ std::string in_bash(const Completed& values) {
     return "";
 }
 
-/// The action of zsh's _arguments.
+/// Returns the action of zsh's _arguments that completes the values.
 std::string in_zsh(const Completed& values) {
     switch (values.kind) {
         case Kind::nothing: return " ";
@@ -68,7 +69,7 @@ std::string in_zsh(const Completed& values) {
     return "";
 }
 
-/// Options of fish's command `complete`.
+/// Returns the options of fish's command `complete` that complete the values.
 std::string in_fish(const Completed& values) {
     switch (values.kind) {
         case Kind::nothing: return " -x";
@@ -80,7 +81,7 @@ std::string in_fish(const Completed& values) {
     return fmt::format(" -x -a '(__cascade_files {})'", fmt::join(values.endings, " "));
 }
 
-/// Text between the brackets or colons of zsh's _arguments.
+/// Escapes a text for use between the brackets or colons of a specification for zsh's _arguments.
 std::string within_zsh(const std::string& text) {
     std::string out;
     for (const char c : text) {

@@ -13,16 +13,17 @@ namespace cascade {
 class JsonAnswer;
 struct Script;
 
-/// Properties of a stream that are determined when the program starts.
+/// Properties of a stream that are found when the program starts and do not change.
 struct Stream {
     int descriptor = 1;
-    bool is_terminal = false;  ///< Whether it is a terminal whose cursor can be moved.
-    bool colour = false;       ///< Whether it is a terminal and NO_COLOR is not set (no-color.org).
+    bool is_terminal = false;  ///< Whether the stream is a terminal whose cursor can be moved.
+    /// Whether the stream is a terminal and NO_COLOR is not set (no-color.org).
+    bool colour = false;
 
     static Stream of(int descriptor);
-    /// The width of the terminal in columns. 80 if the stream is no terminal.
+    /// Returns the width of the terminal in columns, or 80 if the stream is no terminal.
     int columns() const;
-    /// The height of the terminal in lines. 24 if the stream is no terminal.
+    /// Returns the height of the terminal in lines, or 24 if the stream is no terminal.
     int rows() const;
     /// Writes the whole text. If the reader has closed the pipe, fails with an empty message.
     Result<void> write(std::string_view text) const;
@@ -37,7 +38,7 @@ public:
     void answer_in_json(std::string_view command);
     /// Drops the output collected for --json, because another process writes the object.
     void leave_answer_to_other() { answer_.reset(); }
-    /// The object that collects output for --json. Null without --json.
+    /// Returns the object that collects output for --json, or null without --json.
     JsonAnswer* answer() const { return answer_.get(); }
 
     const Stream& out() const { return out_; }

@@ -1,4 +1,4 @@
-// Opens the device of `--device`, and notes which stages it does not run.
+// Opens the device that `--device` names, and notes which stages the device does not run.
 #include "app/device_option.h"
 
 #include "app/exit_status.h"

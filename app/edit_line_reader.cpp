@@ -14,8 +14,8 @@ namespace cascade {
 
 namespace {
 
-/// As long as this object exists, Ctrl-C is an ordinary character of the terminal. libedit sets
-/// this, too, but only some time after it has drawn its prompt.
+/// As long as this object exists, Ctrl-C is an ordinary character of the terminal. libedit changes
+/// the terminal in the same way, but only some time after it has drawn its prompt.
 class InterruptKeyIsText {
 public:
     InterruptKeyIsText() { set(false); }
@@ -132,7 +132,7 @@ std::unique_ptr<LineReader> make_edit_reader(const std::filesystem::path& histor
 
 std::filesystem::path history_path() {
     const char* const state = std::getenv("XDG_STATE_HOME");
-    // The XDG base directory specification says that a relative path is ignored.
+    // The XDG base directory specification says that relative paths are ignored.
     if (state && *state == '/') return std::filesystem::path(state) / "cascade/history";
     const char* const home = std::getenv("HOME");
     if (!home || !*home) return {};

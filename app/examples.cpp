@@ -1,5 +1,5 @@
-// Finds the example scripts: in the source tree through a link in the build folder, or where they
-// are installed.
+// Finds the folder of the example scripts. This is the folder in the source tree, to which a link
+// in the build folder leads, or the folder in which the examples are installed.
 #include "app/examples.h"
 
 #include "core/file.h"
@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uint64_t largest_example = 1 << 20;
 
-/// The first sentence of the comment at the beginning of a script, in one line.
+/// Returns the first sentence of the comment at the beginning of a script, in one line.
 std::string first_sentence(std::string_view text) {
     std::string sentence;
     while (text.starts_with('#')) {
@@ -80,7 +80,8 @@ std::vector<const Example*> examples_named(const std::vector<Example>& examples,
 }
 
 std::vector<fs::path> files_read_by(const Example& example) {
-    // A script names files in quotes. All other texts in quotes name no existing file.
+    // A script names files in quotes. Any other text in quotes is skipped, because no file has its
+    // name.
     std::vector<fs::path> files;
     std::error_code unknown;
     for (std::size_t at = 0; (at = example.text.find('"', at)) != std::string::npos;) {

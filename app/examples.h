@@ -12,21 +12,23 @@
 namespace cascade {
 
 struct Example {
-    std::string name;  ///< Its path below the folder of examples without ending: "cells/fur".
+    /// The path below the folder of examples, without the ending: "cells/fur".
+    std::string name;
     std::filesystem::path file;
     std::string text;
-    std::string about;  ///< The first sentence of its first comment.
+    std::string about;  ///< The first sentence of the script's first comment.
 };
 
-/// All examples, sorted by name. Scripts in subfolders come last. Fails if the program comes
-/// without examples.
+/// Reads all examples. They are sorted by name, and scripts in subfolders come last. Fails if the
+/// program comes without examples.
 Result<std::vector<Example>> read_examples();
 
-/// The example with this name, or else all examples whose name has this last part ("fur").
+/// Returns the example with this name. If there is none, returns all examples whose name is this
+/// name after a folder, such as "cells/fur" for "fur".
 std::vector<const Example*> examples_named(const std::vector<Example>& examples,
                                            std::string_view name);
 
-/// The files that the script of an example reads, relative to its folder.
+/// Returns the files that the script of an example reads, relative to its folder.
 std::vector<std::filesystem::path> files_read_by(const Example& example);
 
 }  // namespace cascade

@@ -23,7 +23,7 @@ std::string lower(std::string text) {
     return text;
 }
 
-/// The examples whose name or description contains all words.
+/// Returns the examples whose name or description contains all words.
 std::vector<const Example*> mentioning(const std::vector<Example>& examples,
                                        const std::vector<std::string>& words) {
     std::vector<const Example*> found;
@@ -38,7 +38,7 @@ std::vector<const Example*> mentioning(const std::vector<Example>& examples,
     return found;
 }
 
-/// The reason why a name or words select no example.
+/// Explains why a name or words select no example.
 Failure unknown_example(const std::vector<Example>& examples,
                         const std::vector<std::string>& words) {
     if (words.empty()) {
@@ -66,7 +66,7 @@ Failure unknown_example(const std::vector<Example>& examples,
 }
 
 /// Copies the script of an example to `target`, and the files that it reads to the same folder. If
-/// any of the copies would replace a file, writes none.
+/// any copy would replace a file, copies nothing.
 Result<std::vector<fs::path>> copy_example(const Example& example, const fs::path& target) {
     std::vector<std::pair<fs::path, fs::path>> copies = {{example.file, target}};
     for (const fs::path& file : files_read_by(example)) {

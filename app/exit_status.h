@@ -12,10 +12,10 @@ constexpr int no_shutdown = 1;
 constexpr int wrong_script = 2;  ///< The script has errors or cannot be read.
 constexpr int failed_run = 3;    ///< A run failed, or an output could not be written.
 constexpr int wrong_use = 64;    ///< Wrong options or arguments. EX_USAGE of BSD's sysexits.h.
-/// Stopped by --limit-time. The same number as timeout(1) returns.
+/// The run was stopped by --limit-time. timeout(1) returns the same number.
 constexpr int time_limit = 124;
 constexpr int bug = 70;  ///< A mistake in Cascade itself. EX_SOFTWARE of BSD's sysexits.h.
-/// Stopped by signal n: the status is 128 + n, such as 130 for Ctrl-C.
+/// The program was stopped by signal n. The status is 128 + n, such as 130 for Ctrl-C.
 constexpr int signal_base = 128;
 
 }  // namespace cascade::exit_status

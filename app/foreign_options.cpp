@@ -9,8 +9,8 @@ namespace cascade {
 
 namespace {
 
-/// `here` is the beginning of the replacement. The user's value follows, or `example` if there is
-/// none.
+/// `here` is the beginning of the replacement. It is followed by the value that the user has given,
+/// or by `example` if there is no value.
 struct ForeignOption {
     std::string_view name, here, example;
 };

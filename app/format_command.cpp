@@ -14,8 +14,8 @@ namespace cascade {
 
 namespace {
 
-/// The script in the standard form. If it cannot be parsed, prints its errors and returns an empty
-/// optional.
+/// Returns the script in the standard form. If the script cannot be parsed, prints its errors and
+/// returns an empty optional.
 std::optional<std::string> formatted(const std::string& name, const std::string& text,
                                      ScriptNotation notation, const Console& console) {
     Sources sources;

@@ -1,4 +1,5 @@
-// Erases a picture by moving up and clearing everything below, which every terminal can do.
+// Erases a picture by moving the cursor up and clearing everything below, which every terminal can
+// do.
 #include "app/growing_picture.h"
 
 #include <algorithm>
@@ -7,8 +8,8 @@
 namespace cascade {
 namespace {
 
-/// The time from the start of the run to the first picture, and the least time between pictures. A
-/// run shorter than the first time shows only its end.
+/// The time from the start of the run to the first picture, and the shortest time between pictures.
+/// A run that ends before the first picture shows only its final state.
 constexpr std::chrono::milliseconds first_after(500), apart(200);
 /// The pause after a drawing, as a multiple of the time that the drawing took. So drawing takes at
 /// most a tenth of all time.

@@ -12,7 +12,7 @@
 
 namespace cascade {
 
-/// Draws the picture of a run again and again at the same place of a terminal with colours.
+/// Draws the picture of a run repeatedly at the same place of a terminal with colours.
 class GrowingPicture {
 public:
     /// All arguments must outlive this object. The script of the run must not change while this

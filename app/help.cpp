@@ -1,4 +1,4 @@
-// Help texts. They do not include CLI11, which takes long to compile.
+// Help texts. This file does not include CLI11, because that takes long to compile.
 #include "app/help.h"
 
 #include "core/version.h"

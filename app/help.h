@@ -1,4 +1,4 @@
-// The texts of --help, except the lists of options, and the text of --version.
+// The text of --version, and the texts of --help except for the lists of options.
 #pragma once
 
 #include <string>
@@ -28,9 +28,9 @@ extern const std::string_view export_page, export_page_examples;
 extern const std::string_view view, view_examples;
 extern const std::string_view lsp, lsp_examples;
 
-/// The names, divided into lines that fit into the column of descriptions.
+/// Joins names, divided into lines that fit into the column of descriptions.
 std::string in_lines(const std::vector<std::string>& names);
-/// The words of a text, divided into lines that fit into the column of descriptions.
+/// Divides a text into lines that fit into the column of descriptions.
 std::string in_lines(const std::string& text);
 
 std::string version_text();

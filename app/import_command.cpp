@@ -1,4 +1,4 @@
-// The command `cascade import` writes a script of a model of another program.
+// The command `cascade import` converts a model of another program to a script.
 #include "app/commands.h"
 #include "app/exit_status.h"
 #include "core/file.h"
@@ -22,7 +22,7 @@ bool is_link(std::string_view text) {
     return text.starts_with("https://") || text.starts_with("http://");
 }
 
-/// The name of a script for a file or link, without an ending.
+/// Makes the name of a script, without an ending, from the name of a file or link.
 std::string imported_name(const std::string& source) {
     std::string stem = is_link(source) ? "visualpde" : fs::path(source).stem().string();
     for (char& letter : stem) {
@@ -33,10 +33,11 @@ std::string imported_name(const std::string& source) {
     return stem.empty() || stem.starts_with('-') ? "imported" : stem;
 }
 
-/// The longest stable step at the start of the stage, on a grid of few cells with the same spacing.
-/// Empty if no estimate is possible.
+/// Estimates the longest stable step at the start of the stage, on a grid of few cells with the
+/// same spacing. Returns an empty optional if no estimate is possible.
 std::optional<double> longest_stable_step(importing::Draft draft, const fs::path& folder) {
-    // The values of files need the whole grid. Other values give the same limit of diffusion.
+    // A field that is read from a file needs the whole grid, so random values replace it. The limit
+    // that diffusion sets to the step does not depend on the values.
     for (auto* const part : {&draft.parameters, &draft.starts}) {
         for (std::string& each : *part) {
             const auto file = each.find("field(");
@@ -174,7 +175,8 @@ private:
         console_.say(render(diagnostics_, sources_, style));
     }
 
-    /// Writes the script and the files beside it, after all of them have been checked.
+    /// Writes the script and the files that it reads. Writes nothing if the script has errors or
+    /// one of the files exists.
     int write(importing::Draft draft, const fs::path& output) {
         const fs::path folder = output.has_parent_path() ? output.parent_path() : ".";
         shorten_step(draft, folder);

@@ -1,4 +1,5 @@
-// Ctrl-C: the first press ends the run after a complete step, and the second one ends the program.
+// Handles Ctrl-C. The first press ends the run after a complete step, and the second press ends the
+// program.
 #pragma once
 
 #include <atomic>
@@ -16,7 +17,7 @@ public:
     InterruptGuard(const InterruptGuard&) = delete;
     InterruptGuard& operator=(const InterruptGuard&) = delete;
 
-    /// The signal that has arrived. 0 if none has.
+    /// Returns the number of the signal that has arrived, or 0 if none has.
     int signal() const;
 
 private:

@@ -25,7 +25,7 @@ public:
     /// A result of the command, which becomes a member of the JSON object.
     nlohmann::ordered_json& operator[](const std::string& member) { return results_[member]; }
 
-    /// The whole answer as text.
+    /// Returns the whole answer as text.
     std::string text(int status) const;
 
 private:

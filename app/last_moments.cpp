@@ -24,14 +24,15 @@ constexpr double part_of_limit = 0.1;
 constexpr std::string_view farewell =
     "cascade: ended at once, because the missing outputs would take too long\n";
 
-/// The data that the signal handlers read and change. So it is global.
+/// The data that signal handlers read and change. They must be global, because a handler receives
+/// only the number of the signal.
 struct Moments {
     std::atomic<bool> exist{false};
     std::atomic<std::atomic<bool>*> hurry{nullptr};
     std::atomic<const std::atomic<bool>*> may_end{nullptr};
-    std::atomic<int> status{0};  ///< 0 until they begin.
+    std::atomic<int> status{0};  ///< 0 until the last moments begin.
     std::atomic<double> seconds_at_limit{usual_seconds};
-    std::atomic<double> begin{0}, seconds{usual_seconds};  ///< Of processor time.
+    std::atomic<double> begin{0}, seconds{usual_seconds};  ///< In seconds of processor time.
     timer_t of_processor{}, of_clock{};
 };
 Moments moments_left;
@@ -97,7 +98,7 @@ void begin_last_moments(int status) noexcept {
     const double seconds =
         status == exit_status::time_limit ? moments_left.seconds_at_limit.load() : usual_seconds;
     moments_left.begin = processor_seconds();
-    moments_left.seconds = 0.95 * seconds;  // The end itself takes a moment.
+    moments_left.seconds = 0.95 * seconds;  // Ending the program takes the rest of the time.
     const itimerspec processor = {duration(seconds / 20), duration(seconds / 2)};
     timer_settime(moments_left.of_processor, 0, &processor, nullptr);
     const itimerspec clock = {{}, duration(std::max(clock_seconds, 2.5 * seconds))};

@@ -1,5 +1,5 @@
-// The short time that a program has to end after SIGTERM, SIGHUP or --limit-time. It is short
-// because a system that shuts down soon kills all processes that still run.
+// The short time that a program has to end after SIGTERM, SIGHUP or --limit-time. A system that
+// shuts down kills all processes after such a time.
 #pragma once
 
 #include "core/run_control.h"
@@ -8,9 +8,9 @@
 
 namespace cascade {
 
-/// As long as this object exists, begin_last_moments() starts a short time. After half of it
-/// `hurry` is set, and at its end the program ends if `may_end` is true. The time is 2 s of
-/// processor time. After --limit-time, it is a tenth of `limit_seconds` if that is longer. `hurry`
+/// As long as this object exists, begin_last_moments() starts a short time. At half of this time
+/// `hurry` is set. At its end the program ends if `may_end` is true. The time is 2 s of processor
+/// time. After --limit-time, it is a tenth of `limit_seconds` if that is longer than 2 s. `hurry`
 /// is also set after 5 s of real time, because other programs may have used the processor. Only one
 /// such object may exist at a time. Uses system timers, because creating a thread may be forbidden.
 class LastMoments {
@@ -27,8 +27,8 @@ private:
     std::unique_ptr<Timers> timers_;
 };
 
-/// For signal handlers. The program will end with `status`. Does nothing if no LastMoments exists,
-/// or if the last moments have already begun.
+/// Begins the last moments, after which the program ends with `status`. May be called by signal
+/// handlers. Does nothing if no LastMoments exists, or if the last moments have already begun.
 void begin_last_moments(int status) noexcept;
 
 }  // namespace cascade

@@ -17,7 +17,7 @@
 
 namespace {
 
-/// The words of the command line, the first replaced by the launcher's path.
+/// Returns the words of the command line, with the launcher's path in place of the first word.
 std::vector<std::string> words_for(const std::filesystem::path& launcher) {
     std::ifstream file("/proc/self/cmdline", std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(file), {}};
@@ -51,7 +51,7 @@ extern "C" [[noreturn]] void cascade_left_out() {
     const auto build = std::filesystem::read_symlink("/proc/self/exe", unknown).parent_path();
     const auto launcher = build.parent_path().parent_path() / "cascade";
     if (std::getenv("CASCADE_WHOLE") == nullptr) {
-        ::setenv("CASCADE_WHOLE", "1", 1);  // For cmake/fresh.sh.
+        ::setenv("CASCADE_WHOLE", "1", 1);  // cmake/fresh.sh reads this variable.
         remove_limits();
         std::vector<std::string> words = words_for(launcher);
         std::vector<char*> arguments;

@@ -39,8 +39,8 @@ void set_timer(double seconds) {
     setitimer(ITIMER_REAL, &timer, nullptr);
 }
 
-/// glibc gives each thread a heap that reserves 64 MiB of addresses. Where `ulimit -v` limits
-/// addresses, these heaps would take the addresses that the run needs.
+/// If `ulimit -v` limits addresses, makes all threads use the same heap. Otherwise glibc would give
+/// each thread a heap that reserves 64 MiB of addresses, and the run would lack these addresses.
 void share_heap_of_threads() {
 #ifdef __GLIBC__
     rlimit addresses = {};
@@ -87,8 +87,8 @@ void limit_memory(std::uint64_t bytes) {
     const rlim_t wanted =
         bytes + for_the_program + static_cast<std::uint64_t>(hardware_threads()) * for_a_thread;
     limit.rlim_cur = limit.rlim_max == RLIM_INFINITY ? wanted : std::min(wanted, limit.rlim_max);
-    // This may fail on a system without such a limit. The memory of a run is estimated before the
-    // run starts in any case.
+    // If the system has no such limit, this may fail. In any case, the memory of a run is estimated
+    // before the run starts.
     setrlimit(RLIMIT_DATA, &limit);
 }
 

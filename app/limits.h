@@ -27,8 +27,8 @@ private:
 
 /// Limits the memory of this process to `bytes`, plus an allowance for code, compiler and threads.
 /// 0 means no limit. The memory for the planes of a run is estimated before the run starts
-/// (run/stage/memory.h). This limit applies to all memory. If addresses are limited, by `ulimit
-/// -v`, all threads share one heap from now on.
+/// (run/stage/memory.h). This limit applies to all memory. If `ulimit -v` limits addresses, all
+/// threads share one heap from now on.
 void limit_memory(std::uint64_t bytes);
 
 }  // namespace cascade

@@ -17,7 +17,7 @@ struct TypedLine {
         end,        ///< The user has pressed Ctrl-D, or the pipe has ended.
     };
     Kind kind = Kind::end;
-    std::string text;  ///< Without the newline.
+    std::string text;  ///< The line without its newline.
 };
 
 class LineReader {
@@ -26,7 +26,8 @@ public:
     virtual TypedLine read(const std::string& prompt) = 0;
 };
 
-/// Returns the names that may complete the word at the end of `line`. Called for each completion.
+/// Returns the names that may complete the word at the end of `line`. Called whenever the user asks
+/// for a completion.
 using NamesToComplete = std::function<std::vector<std::string>(const std::string& line)>;
 
 /// Makes a reader of standard input with libedit. The history is loaded from the file `history`,
@@ -34,11 +35,11 @@ using NamesToComplete = std::function<std::vector<std::string>(const std::string
 std::unique_ptr<LineReader> make_edit_reader(const std::filesystem::path& history,
                                              NamesToComplete names);
 
-/// Makes a reader of a file descriptor that shows no prompts.
+/// Makes a reader of a file descriptor. The reader shows no prompts.
 std::unique_ptr<LineReader> make_plain_reader(int descriptor);
 
-/// $XDG_STATE_HOME/cascade/history or ~/.local/state/cascade/history. Empty if the user has no home
-/// folder.
+/// Returns $XDG_STATE_HOME/cascade/history or ~/.local/state/cascade/history. Returns an empty path
+/// if the user has no home folder.
 std::filesystem::path history_path();
 
 }  // namespace cascade

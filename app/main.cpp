@@ -24,7 +24,7 @@ int run_chosen(const cascade::Options& options, cascade::Console& console) {
     return cascade::exit_status::bug;
 }
 
-/// Whether an error in the command line should be reported in JSON, too.
+/// Whether an error in the command line must also be reported in JSON.
 bool wants_json(const std::vector<std::string>& arguments) {
     constexpr std::array commands = {"check", "mesh", "run", "sweep", "systems"};
     return !arguments.empty() &&

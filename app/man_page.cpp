@@ -26,7 +26,7 @@ std::string roff(std::string_view text) {
     return out;
 }
 
-/// The lines of a description as one paragraph.
+/// Joins the lines of a description into one paragraph.
 std::string paragraph(std::string text) {
     std::replace(text.begin(), text.end(), '\n', ' ');
     return roff(text) + "\n";
@@ -37,7 +37,7 @@ std::string upper(std::string text) {
     return text;
 }
 
-/// The text for the section NAME: the first sentence without its full stop.
+/// Returns the text for the section NAME, which is the first sentence without its full stop.
 std::string in_name_section(const std::string& about) {
     std::string first = about.substr(0, about.find(". "));
     std::replace(first.begin(), first.end(), '\n', ' ');
@@ -60,7 +60,7 @@ std::string entry(const ManualOption& option) {
                        paragraph(option.about));
 }
 
-/// The options below the headings of --help, in their order.
+/// Lists the options below the headings of --help, in the same order as --help.
 std::string options_by_group(const std::vector<ManualOption>& options) {
     std::vector<std::string> groups;
     for (const ManualOption& option : options) {
@@ -78,8 +78,8 @@ std::string options_by_group(const std::vector<ManualOption>& options) {
     return text;
 }
 
-/// The text at the end of --help. Indented lines stay as they are. "Examples:" and "Exit status:"
-/// become headings.
+/// Writes the text at the end of --help. Indented lines stay as they are. "Examples:" and "Exit
+/// status:" become headings.
 std::string examples(std::string_view text) {
     constexpr std::string_view status = "Exit status: ";
     std::string page;

@@ -1,4 +1,5 @@
-// All commands and options as data: the content of --help, for manual pages and shell completions.
+// All commands and options as data. From this content of --help, manual pages and shell completions
+// are made.
 #pragma once
 
 #include <string>
@@ -8,11 +9,12 @@ namespace cascade {
 
 /// An argument or option of a command.
 struct ManualOption {
-    std::vector<std::string> names;  ///< "-o", "--output". For an argument its name, "SCRIPT".
-    std::string value;               ///< The name of its value: "FILE". Empty for a flag.
-    std::string about;               ///< In lines, as --help prints it.
-    std::string group;               ///< The heading in --help.
-    bool is_repeatable = false;      ///< Whether an argument may be given several times.
+    /// The names of an option, "-o" and "--output", or the name of an argument, "SCRIPT".
+    std::vector<std::string> names;
+    std::string value;           ///< The name of the option's value: "FILE". Empty for a flag.
+    std::string about;           ///< The description, divided into lines as --help prints it.
+    std::string group;           ///< The heading of --help below which the option is listed.
+    bool is_repeatable = false;  ///< Whether an argument may be given several times.
 };
 
 struct ManualCommand {
@@ -29,11 +31,11 @@ struct Manual {
 /// Reads the table of commands and the options that each command defines (options.cpp).
 Manual read_manual();
 
-/// The manual pages, as roff with the macros of man(7). They name the version.
+/// Writes the manual pages as roff with the macros of man(7). They name the version.
 std::string man_page(const Manual& manual);
 std::string man_page(const ManualCommand& command);
 
-/// Scripts that complete commands, options, the words that an option accepts, and files.
+/// Writes scripts that complete commands, options, the words that an option accepts, and files.
 std::string bash_completions(const Manual& manual);
 std::string zsh_completions(const Manual& manual);
 std::string fish_completions(const Manual& manual);

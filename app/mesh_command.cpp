@@ -1,5 +1,5 @@
-// The command `cascade mesh` describes 3-D models, and writes them repaired, refined, simplified or
-// unwrapped.
+// The command `cascade mesh` describes 3-D models. It also writes models, repaired and, as options
+// request, refined, simplified or unwrapped.
 #include "app/commands.h"
 #include "app/exit_status.h"
 #include "app/interrupt.h"
@@ -23,7 +23,7 @@ namespace cascade {
 
 namespace {
 
-/// Describes and writes one model after the other.
+/// Handles models one after the other: describes each and writes it if requested.
 class MeshCommand {
 public:
     MeshCommand(const Options& options, Console& console, std::optional<CellOptions> cells,
@@ -103,7 +103,7 @@ private:
     Team team_{hardware_threads()};
 };
 
-/// An error if options contradict each other. Otherwise empty.
+/// Returns an error if options contradict each other, and an empty optional if they do not.
 std::optional<Failure> misuse(const Options& options) {
     const bool spreads = options.cells && options.cells->kind == CellKind::places;
     if (options.cell_seed && !spreads) {

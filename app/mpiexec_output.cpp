@@ -16,7 +16,8 @@ bool is_line_of(std::string_view line, char sign) {
     return line.size() > 40 && line.find_first_not_of(sign) == std::string_view::npos;
 }
 
-/// "mpiexec noticed that process rank 1 with PID 4711 on node here exited on signal 9 (Killed)."
+/// Returns "rank 1 on here was killed by signal 9" for the text "mpiexec noticed that process rank
+/// 1 with PID 4711 on node here exited on signal 9 (Killed).", and an empty string for other texts.
 std::string killed_by(const std::string& text) {
     static const std::regex words(
         R"(process rank (\d+) with PID \d+ on node (\S+)\s+exited on\s+signal (\d+))");
@@ -26,8 +27,8 @@ std::string killed_by(const std::string& text) {
                        found[3].str());
 }
 
-/// Whether this is a line of Open MPI's log, "[machine:4711] …", or of MPICH's, "Abort(3) on node 1
-/// …".
+/// Whether a line belongs to a log: to Open MPI's, "[machine:4711] …", or to MPICH's, "Abort(3) on
+/// node 1 …".
 bool is_logged(std::string_view line) {
     static const std::regex words(R"(^(\[\S+:\d+\] |Abort\(\d+\) on node ).*)");
     return std::regex_match(line.begin(), line.end(), words);
@@ -35,7 +36,8 @@ bool is_logged(std::string_view line) {
 
 constexpr std::string_view before_rank = "cascade: rank ";
 
-/// The rank and the process that an announcement names, if it is on this machine.
+/// Returns the rank and the process that an announcement names. Returns an empty optional if the
+/// line is no announcement, or if the process is not on this machine.
 std::optional<std::pair<int, pid_t>> announced(const std::string& line) {
     static const std::regex words(R"(^cascade: rank (\d{1,6}) is process (\d{1,9}) on (\S+)$)");
     std::smatch found;
@@ -55,14 +57,14 @@ std::string announcement_of_rank(int rank) {
     return fmt::format("{}{} is process {} on {}", before_rank, rank, ::getpid(), this_machine());
 }
 
-/// Adds a line to the explanations.
+/// Adds a line to the explanations. Returns false, because the line is no message of a rank.
 bool MpiexecOutput::keep(std::string_view line) {
     explanations_ += std::string(line) + "\n";
     return false;
 }
 
-/// Reads a line of MPICH's explanation: a line of equals signs, lines that begin with one, a line
-/// of equals signs, and three lines about the cause.
+/// Reads a line of MPICH's explanation. An explanation consists of a line of equals signs, lines
+/// that begin with an equals sign, another line of equals signs, and three lines about the cause.
 bool MpiexecOutput::read_mpich(std::string_view line) {
     static const std::regex process(R"(^=\s+PID (\d{1,9}) RUNNING AT (\S+))");
     static const std::regex signal(R"(\(signal (\d{1,3})\))");

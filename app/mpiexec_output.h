@@ -9,8 +9,8 @@
 
 namespace cascade {
 
-/// A line that a rank prints when it starts. From it, the process that has called mpiexec learns
-/// which process must receive Ctrl-C, and the rank of each process.
+/// Returns a line that a rank prints when it starts. From this line, the process that has called
+/// mpiexec learns the rank of each process, and which process must receive Ctrl-C.
 std::string announcement_of_rank(int rank);
 
 /// Separates the output of ranks, which is passed on, from the explanations of mpiexec. Open MPI
@@ -18,19 +18,20 @@ std::string announcement_of_rank(int rank);
 /// standard output, so there is one object for each stream.
 class MpiexecOutput {
 public:
-    /// Takes the next line, without its end. Returns whether it is a message that a rank has
+    /// Takes the next line, without its end. Returns whether the line is a message that a rank has
     /// written for the user.
     bool takes(std::string_view line);
 
-    /// The process of rank 0. Empty if it is unknown or runs on another machine.
+    /// Returns the process of rank 0. Returns an empty optional if the process is unknown or runs
+    /// on another machine.
     std::optional<pid_t> root() const {
         const auto found = processes_.find(0);
         return found != processes_.end() ? std::optional(found->second) : std::nullopt;
     }
 
-    /// The signal that has killed a rank, as Open MPI or MPICH explains it; empty if there was
-    /// none: "rank 1 on MACHINE was killed by signal 9". `ranks` has read the announcements of
-    /// ranks.
+    /// Says which rank a signal has killed, according to Open MPI or MPICH: "rank 1 on MACHINE was
+    /// killed by signal 9". Returns an empty string if no rank was killed. `ranks` must have read
+    /// the announcements of the ranks.
     std::string killed(const MpiexecOutput& ranks) const;
     /// The explanations of mpiexec.
     const std::string& explanations() const { return explanations_; }
@@ -38,7 +39,7 @@ public:
     bool has_error() const { return has_error_; }
 
 private:
-    /// A process that MPICH says has ended.
+    /// A process that has ended, according to MPICH.
     struct Ended {
         pid_t process = 0;
         std::string machine;
@@ -51,11 +52,11 @@ private:
     /// The sign of the lines around the explanation that is being read: '-' for Open MPI, '=' for
     /// MPICH, and 0 outside of explanations.
     char frame_ = 0;
-    int causes_ = 0;  ///< The number of lines about the cause that MPICH still prints.
+    int causes_ = 0;  ///< The number of lines about the cause that are still to come from MPICH.
     bool has_error_ = false;
     std::string explanations_, killed_, paragraph_;
     Ended ended_;
-    std::map<int, pid_t> processes_;  ///< Processes of this machine, by rank.
+    std::map<int, pid_t> processes_;  ///< The processes of ranks on this machine, by rank.
 };
 
 }  // namespace cascade

@@ -17,16 +17,16 @@ inline constexpr const char* execution_group =
 void add_script(CLI::App& app, Options& options, const std::string& help);
 void add_allow_read(CLI::App& app, ReadAccess& reads, const std::string& about);
 void add_overrides(CLI::App& app, Overrides& overrides);
-/// Adds the picture options of `cascade run`, or, if `is_sweep` is true, only those that `cascade
-/// sweep` has, too.
+/// Adds the picture options of `cascade run`. If `is_sweep` is true, adds only the picture options
+/// that `cascade sweep` has, too.
 void add_picture_options(CLI::App& app, PictureChanges& picture, bool is_sweep = false);
 void add_files(CLI::App& app, RunRequest& run);
-/// Adds the options of run_options.def from `first` to `last`.
+/// Adds the options of run_options.def from `first` to `last`, including both.
 void add_run_options(CLI::App& app, RunRequest& run, RunOption first, RunOption last);
 /// Adds the options of all commands that take steps: backend, threads and lanes. `threads` is the
 /// help text of the option --threads.
 void add_simulation(CLI::App& app, Options& options, const std::string& threads);
-/// Adds the arguments and options of `cascade mesh` for models and the cells on them.
+/// Adds the arguments and options of `cascade mesh`, for models and for the cells on models.
 void add_mesh(CLI::App& app, Options& options);
 void add_timing(CLI::App& app, Options& options);
 /// `work` names the work that the ranks share: "steps" or "runs".

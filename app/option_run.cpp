@@ -1,4 +1,5 @@
-// The options of pictures, of runs and of scripts, made from their tables.
+// The options of pictures, of runs and of scripts. They are made from the tables in run/script and
+// run/commands.
 #include "app/add_value.h"
 #include "app/help.h"
 #include "app/option_groups.h"
@@ -31,12 +32,12 @@ std::vector<std::string> palette_names() {
 /// of the following objects.
 namespace typed_values {
 
-/// For an option without an argument, which sets a constant.
+/// Sets a constant. The option has no argument.
 template <typename T>
 struct Constant {
     T value;
 };
-/// For an option that may be given several times. Each adds a text.
+/// Adds the option's text to a list. The option may be given several times.
 struct Texts {};
 
 template <typename T>
@@ -87,7 +88,7 @@ auto precision() {
     return word_of(std::array{name_of(Precision::single), name_of(Precision::binary64)},
                    precision_of_name);
 }
-/// `imex2` is accepted as in scripts (see solver_of()), but not listed.
+/// As in scripts, `imex2` is accepted (see solver_of()), but it is not listed.
 auto solver() {
     std::vector<std::string> names = solver_names();
     names.emplace_back("imex2");
@@ -140,13 +141,13 @@ CLI::Option* add_row(CLI::App& app, const std::string& flag, const std::string& 
     return app.add_option(flag, member, help)->allow_extra_args(false)->type_name(value);
 }
 
-/// The name of the option that sets the member `name`.
+/// Returns the name of the option that sets the member `name`.
 std::string flag_of(std::string name) {
     std::replace(name.begin(), name.end(), '_', '-');
     return "--" + name;
 }
 
-/// Says which options need or exclude others, because the tables do not contain this.
+/// Declares which options need or exclude other options, because the tables do not contain this.
 void relate(CLI::App& app) {
     const auto find = [&](const char* flag) { return app.get_option_no_throw(flag); };
     for (const auto& [flag, needed] :

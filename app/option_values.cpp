@@ -1,4 +1,4 @@
-// from_chars() reads numbers, because it ignores the locale. A number must extend over the whole
+// Numbers are read by from_chars(), which ignores the locale. A number must extend over the whole
 // text.
 #include "app/option_values.h"
 
@@ -41,7 +41,7 @@ bool read_two(std::string_view text, float& first, float& second) {
 Result<std::int64_t> parse_whole(std::string_view text, std::int64_t low, std::int64_t high) {
     std::int64_t number = 0;
     if (read_all(text, number) && number >= low && number <= high) return number;
-    double value = 0;  // Options refuse 1e3, but the hint says 1000.
+    double value = 0;  // "1e3" is refused, but the hint suggests 1000.
     const bool is_short = read_all(text, value) && value == std::floor(value) &&
                           value >= static_cast<double>(low) &&
                           value <= std::min(static_cast<double>(high), 1e15);

@@ -46,19 +46,20 @@ public:
     }
 };
 
-/// All objects of CLI11 together, so that they are destroyed after parsing.
+/// All objects of CLI11. They are in one struct, so that they are destroyed after parsing.
 struct Parser {
     std::vector<std::string> words;  ///< As the user typed them.
     CLI::App app;
     Options options;
     bool show_version = false;
 
-    /// Adds options only for the commands that occur among the words.
+    /// Adds the options of those commands that occur among the words.
     Parser(const std::string& program, std::vector<std::string> typed);
-    /// The text of --help for the chosen command, or for the program if no command is chosen.
+    /// Returns the text of --help for the chosen command or, if no command is chosen, for the
+    /// program.
     std::string help();
     CLI::App* chosen();
-    /// The command as the user typed it, such as "cascade run".
+    /// Returns the command as the user typed it, such as "cascade run".
     std::string called(const std::string& program) {
         return chosen() ? fmt::format("{} {}", program, chosen()->get_name()) : program;
     }
@@ -76,7 +77,7 @@ struct Parser {
 
 std::string Parser::help() {
     std::string text = chosen() ? chosen()->help(app.get_name()) : app.help();
-    // CLI11 puts two empty lines between groups. This removes one of them.
+    // CLI11 puts two empty lines between groups. One of them is removed here.
     for (std::size_t at = 0; (at = text.find("\n\n\n", at)) != std::string::npos;) {
         text.erase(at, 1);
     }
@@ -86,7 +87,7 @@ std::string Parser::help() {
 Parser::Parser(const std::string& program, std::vector<std::string> typed)
     : words(std::move(typed)), app(std::string(help::about), program) {
     app.formatter(std::make_shared<HelpFormatter>());
-    // Without this, --fast=0 and --fast=3 would be accepted.
+    // If this were missing, --fast=0 and --fast=3 would be accepted.
     app.option_defaults()->disable_flag_override();
     app.set_help_flag("-h,--help", "This text; 'cascade COMMAND --help' describes a command");
     app.add_flag("-V,--version", show_version, "The version, and what it was built with");
@@ -97,7 +98,7 @@ Parser::Parser(const std::string& program, std::vector<std::string> typed)
         CLI::App* const command = app.add_subcommand(name, std::string(entry.about));
         command->footer(std::string(entry.examples));
         command->group("Commands");
-        command->set_help_flag();  // It is added again at the end, so that it is listed last.
+        command->set_help_flag();  // --help is added again at the end, so that it is listed last.
         // Adding the options of all commands would take longer than starting the program, so only
         // the commands that were typed get options.
         if (std::find(words.begin(), words.end(), name) == words.end()) continue;
@@ -122,7 +123,7 @@ std::string Parser::near_option(const std::string& word) {
     return near.empty() ? "" : "--" + near;
 }
 
-/// The first argument that begins like an option but is not one.
+/// Returns the first argument that begins like an option but is no option of the command.
 std::optional<std::string> Parser::unknown_option() const {
     for (const std::string& word : app.remaining(true)) {
         if (word.starts_with("-") && word.size() > 1) return word;
@@ -130,8 +131,8 @@ std::optional<std::string> Parser::unknown_option() const {
     return std::nullopt;
 }
 
-/// The correct form "--set F=0.05" if the user has written `--set F 0.05`, where `value` is "0.05".
-/// Otherwise empty.
+/// If the user has written `--set F 0.05`, where `value` is "0.05", returns the correct form "--set
+/// F=0.05". Otherwise returns an empty string.
 std::string Parser::in_one_word(const std::string& value) {
     const CLI::Option* const option = chosen()->get_option_no_throw("--set");
     if (option == nullptr || option->results().empty()) return "";
@@ -139,8 +140,8 @@ std::string Parser::in_one_word(const std::string& value) {
     return last.find('=') == std::string::npos ? fmt::format("--set {}={}", last, value) : "";
 }
 
-/// The value that the user has written for an unknown option, in the same word or the next. Empty
-/// if there is none.
+/// Returns the value that the user has written for an unknown option, in the same word or the next.
+/// Returns an empty string if there is no value.
 std::string Parser::value_of(const std::string& option) const {
     if (const std::size_t mark = option.find('='); mark != std::string::npos) {
         return option.substr(mark + 1);
@@ -236,7 +237,8 @@ Leave Parser::wrong_use(const std::string& program, const CLI::ParseError& error
     return leave(program, fmt::format("{}: {}", called(program), told));
 }
 
-/// The name of a required argument that is missing. Empty if none is. CLI11 cannot check this.
+/// Returns the name of a required argument that is missing, or an empty string if none is missing.
+/// CLI11 cannot check this.
 std::string missing_argument(const Options& options) {
     const bool needs_script =
         options.command == Command::sweep || options.command == Command::follow ||

@@ -46,7 +46,8 @@ enum class Command {
 };
 
 /// The picture options that the user has given explicitly. When the run of a saved picture is
-/// repeated, these options replace the options stored in the picture. Defaults replace nothing.
+/// repeated, they replace the options stored in the picture. Options that the user has not given
+/// replace nothing.
 struct PictureChanges {
 #define CASCADE_PICTURE_OPTION(type, member, ...) std::optional<type> member;
 #include "run/script/picture_options.def"
@@ -75,7 +76,7 @@ struct Options {
     std::filesystem::path sweep_sets;      ///< `sweep --sets`
     std::optional<Variation> sweep_seeds;  ///< `sweep --seeds`
     double limit_seconds = 0;              ///< `--limit-time`. 0: no limit.
-    std::string dump;  ///< The kind of `--dump`. Empty if the script is run instead.
+    std::string dump;                      ///< The kind of `--dump`. Empty: the script is run.
     /// `run --device`: "gpu", "cpu", a number, or "list". If empty, threads take all steps.
     std::string device;
     int ranks = 0;  ///< `run --ranks`: the number of processes. 0: this process runs alone.
@@ -101,7 +102,7 @@ struct Options {
     ModelFileOptions mesh_files;                           ///< `mesh --unwrap`.
     std::filesystem::path mesh_output;                     ///< `mesh -o`.
     AnalyzeRequest analyze;
-    FollowRequest follow;  ///< `continue`; its member `simulation` contains the defaults.
+    FollowRequest follow;  ///< `continue`. Its member `simulation` contains the defaults.
     BenchRequest bench;    ///< Its member `simulation` contains the defaults.
     bool csv = false;      ///< `bench --csv`
     CompileRequest compile;
@@ -117,10 +118,11 @@ inline const TypedScript* typed_of(const Options& options) {
     return options.typed ? &*options.typed : nullptr;
 }
 
-/// The program must print `text` and end. Used for --help and --version, and after wrong options.
+/// Tells the program to print `text` and to end. Used for --help and --version, and after wrong
+/// options.
 struct Leave {
     int status = 0;
-    /// Printed to standard output if `status` is 0, and otherwise to standard error.
+    /// Is printed to standard output if `status` is 0, and otherwise to standard error.
     std::string text;
 };
 

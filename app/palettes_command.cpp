@@ -23,8 +23,8 @@ namespace {
 
 constexpr int columns_of_bar = 32, width_of_name = 12;
 
-/// A bar in 24-bit colour with two colours for each character: a half block on the left, and the
-/// background on the right.
+/// Draws a bar in 24-bit colour. Each character shows two colours: a half block on the left, and
+/// the background on the right.
 std::string bar_in_terminal(const Palette& palette) {
     const auto channels = [&](int place) {
         const Colour colour = colour_at(palette, (place + 0.5) / (2 * columns_of_bar));
@@ -38,8 +38,8 @@ std::string bar_in_terminal(const Palette& palette) {
     return bar + "\x1b[0m";
 }
 
-/// The name and description of a palette. If the user has given a list of colours, returns only the
-/// list.
+/// Returns the name and description of a palette. If the user has given a list of colours, returns
+/// only the list.
 std::string words_of(const Palette& palette) {
     if (palette.name.starts_with('#')) return std::string(palette.name);
     return fmt::format("{:<{}}{}", palette.name, width_of_name, palette.description);

@@ -1,4 +1,4 @@
-// Reads the processes below a process from /proc.
+// Reads from /proc which processes descend from a process.
 #include "app/process_tree.h"
 
 #include <fmt/format.h>

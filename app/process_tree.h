@@ -5,8 +5,9 @@
 
 namespace cascade {
 
-/// Whether a process has children, and every descendant has either ended without being waited for,
-/// or only waits for such processes. False if /proc does not list children.
+/// Whether a process has children, and every descendant is one of two kinds: it has ended and its
+/// parent has not waited for it, or it only waits for such processes. False if /proc does not list
+/// children.
 bool only_ended_below(pid_t process);
 
 }  // namespace cascade

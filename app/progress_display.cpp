@@ -36,7 +36,7 @@ double share_of(const Progress& progress) {
     return static_cast<double>(progress.step) / static_cast<double>(progress.steps);
 }
 
-/// The width of a text in terminal columns. Each code point counts as one column.
+/// Returns the width of a text in terminal columns. Each code point counts as one column.
 int width_of(std::string_view text) {
     return static_cast<int>(std::count_if(text.begin(), text.end(), [](char c) {
         return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
@@ -72,7 +72,7 @@ std::string clock_time(double seconds) {
 
 namespace {
 
-/// `left`, a bar, and as many of `facts` as fit into `columns`.
+/// Joins `left`, a bar, and as many of `facts` as fit into `columns`.
 std::string fitting_bar(const std::string& left, double share,
                         const std::vector<std::string>& facts, int columns) {
     // Text in the last column would move the cursor to the next line.
@@ -176,7 +176,8 @@ void ProgressDisplay::clear() {
     drawn_ = false;
 }
 
-/// Prints a line for an activity outside of stages, but only if it is known how much of it remains.
+/// Prints a line for an activity outside of stages. Does so only if it is known how much of the
+/// activity remains.
 void ProgressDisplay::show_doing_line(const Progress& progress) {
     if (progress.steps <= 0) return;
     const Time now = output_.now();
@@ -189,7 +190,8 @@ void ProgressDisplay::show_doing_line(const Progress& progress) {
 void ProgressDisplay::show_line(const Progress& progress) {
     const Time now = output_.now();
     if (progress.stage_done) {
-        // The rate over the whole stage varies less than the rate of the last second.
+        // The rate is averaged over the whole stage, because the rate of the last second varies
+        // more.
         const double seconds = std::chrono::duration<double>(now - stage_begun_).count();
         Progress whole = progress;
         whole.steps_per_second =

@@ -13,21 +13,21 @@
 
 namespace cascade {
 
-/// A duration, such as "0:07", "12:34" or "3:02:01".
+/// Writes a duration, such as "0:07", "12:34" or "3:02:01".
 std::string clock_time(double seconds);
 
-/// A line of at most `columns` columns, without a newline. It contains the stage, a bar, the steps,
-/// the rate and the remaining time. If it would be too long, the least important parts are left
-/// out.
+/// Returns a line of at most `columns` columns, without a newline. It contains the stage, a bar,
+/// the steps, the rate and the remaining time. If the line would be too long, the least important
+/// parts are left out.
 std::string progress_bar(const Progress& progress, int columns);
 
-/// The line with the bar of a sweep: "12 of 81 runs", the bar and the remaining time.
+/// Returns the line with the bar of a sweep: "12 of 81 runs", the bar and the remaining time.
 std::string progress_bar(const SweepProgress& progress, int columns);
-/// The line of a sweep without a bar: "12 of 81 runs, 0:41 left".
+/// Returns the line of a sweep without a bar: "12 of 81 runs, 0:41 left".
 std::string progress_line(const SweepProgress& progress);
 
-/// The line of a run without a bar: "stage 2/2 'small': 3,000 of 7,000 steps, 12,340 steps/s, 0:05
-/// left".
+/// Returns the line of a run without a bar: "stage 2/2 'small': 3,000 of 7,000 steps, 12,340
+/// steps/s, 0:05 left".
 std::string progress_line(const Progress& progress);
 
 class ProgressDisplay {

@@ -1,4 +1,4 @@
-// The words before the last one determine which names are possible.
+// The words before the last word determine which names are possible.
 #include "app/prompt_names.h"
 
 #include "app/prompt_text.h"

@@ -9,9 +9,9 @@
 
 namespace cascade {
 
-/// Names that may complete the word at the end of a line. After `STAGE.` these are the items of
-/// that stage, and after a command its possible arguments (items, stages, files). Otherwise they
-/// are all names of the language and of the program.
+/// Returns the names that may complete the word at the end of a line. After `STAGE.` these are the
+/// items of that stage, and after a command its possible arguments (items, stages, files). At any
+/// other place, they are all names of the language and of the program.
 std::vector<std::string> names_at_end(std::string_view line, const Program& program);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// The commands of the prompt that concern the run: they start it, take steps, show it and save it.
+// The commands of the prompt that start the run, take steps, show the run and save it.
 #include "app/prompt_session.h"
 
 #include "app/commands.h"
@@ -26,11 +26,11 @@ namespace cascade {
 
 namespace {
 
-/// A growing picture may be drawn after this many steps. With fewer steps at a time, the solver
-/// could not take several of them in one pass through memory.
+/// A growing picture may be drawn after this many steps. With a smaller number, the solver could
+/// not take several steps in one pass through memory.
 constexpr std::int64_t steps_between_looks = 64;
 
-/// Shows the progress of a run, which Ctrl-C can stop.
+/// Shows the progress of a run, and stops the run on Ctrl-C.
 struct WatchedRun {
     RunControl control;
     ProgressDisplay display;
@@ -55,7 +55,7 @@ struct WatchedRun {
     WatchedRun& operator=(const WatchedRun&) = delete;
 };
 
-/// The values of a field in words, such as "3.5 in all cells" or "0.1 to 0.9".
+/// Describes the values of a field, such as "3.5 in all cells" or "0.1 to 0.9".
 std::string in_words(const Field& field) {
     const Spread values = spread_of(field);
     if (values.count == 0) return "no values\n";
@@ -66,7 +66,8 @@ std::string in_words(const Field& field) {
     return fmt::format("{:.6g} to {:.6g}\n", values.smallest, values.largest);
 }
 
-/// The progress of a stage. If its cells crawl, also the numbers of cells, births and deaths.
+/// Describes the progress of a stage. If its cells crawl, also gives the numbers of cells, births
+/// and deaths.
 std::string progress_in_words(const Stage& stage, const StageState& state) {
     const std::string place = describe_place(stage, state);
     const auto cells = counts_of_cells(state);
@@ -83,8 +84,8 @@ bool PromptSession::has_something_to_run() {
     return false;
 }
 
-/// Replaces the run by the result of `make`, which may take a while to make the cells of a model or
-/// to repeat steps. Returns false if `make` fails.
+/// Replaces the run by the result of `make`. This may take a while, because `make` may make the
+/// cells of a model or repeat steps. Returns false if `make` fails.
 bool PromptSession::begin_with(
     const std::function<Accepted<std::unique_ptr<LiveRun>>(RunControl&)>& make) {
     WatchedRun watched(console_, kept_);
@@ -113,7 +114,7 @@ bool PromptSession::begin_run() {
         return false;
     }
     take_over(std::move(*made));
-    run_->script().diagnostics = {};  // These warnings have been printed.
+    run_->script().diagnostics = {};  // The warnings in it have already been printed.
     return true;
 }
 
@@ -143,7 +144,7 @@ bool PromptSession::apply(const Change& change) {
     return true;
 }
 
-/// Moves the run back to an earlier moment, or forward again.
+/// Moves the run to an earlier moment, or forward again.
 void PromptSession::move(const std::function<Accepted<void>(RunControl&)>& go) {
     WatchedRun watched(console_, kept_);
     const auto done = go(watched.control);
@@ -234,8 +235,8 @@ void PromptSession::remark(const std::string& words) {
     if (!words.empty()) console_.warn(words);
 }
 
-/// A painter of the run. Begins the run if there is none. Empty if the run cannot begin or if the
-/// expression has errors.
+/// Makes a painter of the run. Begins the run if there is none. Returns an empty optional if the
+/// run cannot begin or if the expression has errors.
 std::optional<Painter> PromptSession::painter_of(const std::string& expression) {
     if (!begin_run()) return std::nullopt;
     auto painter = make_painter(*run_, picture_of(expression));
@@ -309,7 +310,8 @@ void PromptSession::save(const std::string& path) {
     console_.note(fmt::format("wrote {} files in {}", written->size(), path));
 }
 
-/// Saves a picture of the present state. It shows the same expression as the last picture.
+/// Saves a picture of the present state. The picture shows the same expression as the picture that
+/// was drawn last.
 void PromptSession::save_picture(const std::string& path) {
     const auto file = session_picture(*run_, picture_of(shown_));
     if (!file) return print_refusal(file.error());

@@ -59,7 +59,7 @@ std::span<const PromptSession::Command> PromptSession::commands() {
 
 namespace {
 
-/// The commands of `cascade` that are also commands of the prompt.
+/// Returns the commands of `cascade` that are also commands of the prompt.
 std::vector<const CommandEntry*> shell_commands() {
     std::vector<const CommandEntry*> found;
     for (const CommandEntry& entry : command_table()) {
@@ -177,7 +177,7 @@ bool is_expression(const std::string& text) {
 }  // namespace
 
 /// Adds a text to the script. A block replaces the block of the same name. If the text is an
-/// expression, prints its value instead.
+/// expression, only prints its value.
 void PromptSession::add_text(const std::string& text) {
     if (is_expression(text)) return print_value(std::string(trim(text)));
     const std::string whole = script() ? with_blocks(script()->text, text) : text;
@@ -200,7 +200,8 @@ bool PromptSession::change(Script changed) {
     if (messages != last_warnings_) console_.say(messages);
     last_warnings_ = messages;
     script_ = std::make_unique<Script>(std::move(changed));
-    script_->diagnostics = {};  // These have been printed. From now on, only new errors matter.
+    // The messages in it have been printed. Only new messages matter from now on.
+    script_->diagnostics = {};
     return true;
 }
 

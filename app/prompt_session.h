@@ -44,9 +44,9 @@ public:
     /// Must be called at the end of the input. Checks an unfinished block as if it were complete.
     void end();
 
-    /// The prompt for the next line, with its number in the script.
+    /// Returns the prompt for the next line, with the line's number in the script.
     std::string prompt() const;
-    /// Names that can complete the word at the end of `line`.
+    /// Returns names that can complete the word at the end of `line`.
     std::vector<std::string> names(const std::string& line) const;
     /// Whether any line had an error, or any run has failed.
     bool has_failed() const { return has_failed_; }
@@ -103,7 +103,8 @@ private:
     void print_errors(const Script& script);
     void print_refusal(const Refusal& refusal);
 
-    /// The script of the run, or the script typed so far. Null before anything was typed.
+    /// Returns the script of the run or, without a run, the script typed so far. Returns null
+    /// before anything was typed.
     const Script* script() const { return run_ ? &run_->script() : script_.get(); }
 
     SimulationOptions options_;
@@ -114,10 +115,9 @@ private:
     std::string last_warnings_;
     std::string shown_;  ///< The expression of the picture that was drawn last.
     bool has_failed_ = false;
-    std::unique_ptr<Script> script_;  ///< Never has errors. Null if there is a run.
+    std::unique_ptr<Script> script_;  ///< Null if there is a run. Never has errors.
     std::unique_ptr<LiveRun> run_;    ///< Null until the first command that needs a run.
-    std::string stem_ = "prompt";  ///< The beginning of the names of output files. Taken from the
-                                   ///< file that was loaded.
+    std::string stem_ = "prompt";     ///< Output files have names that begin with this text.
     /// The stored log of the run. Null if the session is not at a terminal.
     std::shared_ptr<SessionFile> kept_;
 };

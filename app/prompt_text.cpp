@@ -27,8 +27,8 @@ bool ends_in_operator(std::string_view text) {
                        [&](std::string_view word) { return ends_in_word(text, word); });
 }
 
-/// The position at which the comment of a line begins, or the length of the line if it has none. A
-/// string ends at the latest with the line.
+/// Returns the position at which the comment of a line begins, or the length of the line if the
+/// line has no comment. A string that is not closed ends at the end of the line.
 std::size_t comment_begin(std::string_view line) {
     bool quoted = false;
     for (std::size_t k = 0; k < line.size(); ++k) {
@@ -38,7 +38,7 @@ std::size_t comment_begin(std::string_view line) {
     return line.size();
 }
 
-/// The number of opening brackets in a line minus the number of closing ones.
+/// Returns the number of opening brackets in a line minus the number of closing brackets.
 long open_brackets(std::string_view line) {
     long open = 0;
     bool quoted = false;

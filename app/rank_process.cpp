@@ -25,9 +25,9 @@
 namespace cascade {
 namespace {
 
-/// How long a rank that fails waits for the message of rank 0 before it prints its own, because
-/// usually all ranks fail for the same reason. The time is longer if ranks share a processor,
-/// because rank 0 then fails later.
+/// Returns how long a rank that fails waits for the message of rank 0 before it prints its own
+/// message. It waits because usually all ranks fail for the same reason. The time is longer if
+/// ranks share a processor, because rank 0 then fails later.
 std::chrono::seconds patience() {
     const int sharing = ranks_on_this_machine() / std::max(1, hardware_threads());
     return std::chrono::seconds(std::clamp(2 * sharing, 2, 20));
@@ -119,7 +119,7 @@ int run_as_root(const Options& options, Console& console, Ranks& ranks, CommandO
 
 int run_silently(const Options& options, Console& console, Ranks& ranks, CommandOnRanks& command) {
     console.leave_answer_to_other();
-    // Rank 0 receives the signals and ends all ranks together.
+    // Only rank 0 reacts to the signals. It ends all ranks together.
     for (const int each : {SIGINT, SIGTERM, SIGHUP}) std::signal(each, SIG_IGN);
     const Messages messages;
     Console silent = messages.console();
@@ -158,7 +158,7 @@ Result<void> share_steps(const Script& script, Ranks& ranks, RunRequest& request
     steps_alone.stop_at = request.stop_at;
     steps_alone.picture.detail = request.picture.detail;
     request = std::move(steps_alone);
-    // Leaves out the picture at the end of the run, too.
+    // With this flag, the picture at the end of the run is also left out.
     control.hurry = true;
     return {};
 }

@@ -1,4 +1,4 @@
-// Commands on several ranks: processes that mpiexec starts, and that share the work.
+// Commands on several ranks. Ranks are processes that mpiexec starts, and that share the work.
 #pragma once
 
 #include "app/console.h"
@@ -15,8 +15,8 @@ using CommandOnRanks = int(const Options& options, Console& console, Ranks* rank
 Result<void> check_readable_by_ranks(const Options& options);
 
 /// Runs a command as one of the ranks that a launcher has started. Only rank 0 writes files and
-/// messages. If a rank fails, all ranks end: rank 0 reports its failure, and any other rank waits a
-/// moment for this report before it reports its own failure.
+/// messages. If a rank fails, all ranks end. Rank 0 reports its failure at once. Any other rank
+/// first waits a moment for the report of rank 0, and then reports its own failure.
 int run_as_rank(const Options& options, Console& console, CommandOnRanks& command);
 
 /// Makes this process take its share of the steps. On all ranks but rank 0, the request then writes

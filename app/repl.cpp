@@ -1,5 +1,5 @@
-// The command `cascade repl` handles lines one after the other, from a line editor at a terminal,
-// or from a pipe.
+// The command `cascade repl` handles lines one after the other. The lines come from a line editor
+// at a terminal, or from a pipe.
 #include "app/commands.h"
 #include "app/exit_status.h"
 #include "app/interrupt.h"
@@ -28,7 +28,8 @@ int repl_command(const Options& options, Console& console) {
                            loaded, "repl", console);
     }
     if (!loaded.empty()) session.load(loaded.string());
-    // Errors change the status only for a pipe, because at a terminal the user has seen them.
+    // Errors change the status only if lines come from a pipe. At a terminal, the user has seen
+    // them.
     const auto status = [&] {
         return !at_terminal && session.has_failed() ? exit_status::wrong_line
                                                     : exit_status::success;

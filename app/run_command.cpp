@@ -214,7 +214,8 @@ int run_command(const Options& options, Console& console) {
     return run_script(options, console, nullptr);
 }
 
-/// The request of the options, with the options and the session that a picture of Cascade contains.
+/// Makes the request of the run from the options, and adds the picture options and the session that
+/// a picture of Cascade contains.
 static Result<RunRequest> request_of(const LoadedFile& file, const Options& options,
                                      Console& console) {
     RunRequest request = options.run;
@@ -252,7 +253,7 @@ static int run_script(const Options& options, Console& console, Ranks* ranks) {
     if (!options.dump.empty()) return dump_command(script, options.dump, console);
     console.tell(script);
     if (!script.program) return exit_status::wrong_script;
-    script.diagnostics = {};  // These warnings have been printed.
+    script.diagnostics = {};  // The warnings in it have already been printed.
 
     auto requested = request_of(*file, options, console);
     if (!requested) {
@@ -277,7 +278,7 @@ static int run_script(const Options& options, Console& console, Ranks* ranks) {
         console.fail(chosen.error());
         return exit_status::failed_run;
     }
-    // Several ranks end at the same step, on which they agree.
+    // Several ranks must end at the same step, so they agree on it through a flag of their own.
     std::atomic<bool>& to_end = ranks != nullptr ? ranks->end_flag() : control.cancel;
     const LastMoments last(control, options.limit_seconds);
     const InterruptGuard interrupt(to_end);

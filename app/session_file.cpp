@@ -19,15 +19,15 @@ namespace cascade {
 namespace {
 
 constexpr int most_files = 100;
-/// A file of at least this size, and of at least twice the size that the log needs, is written
-/// again without undone changes.
+/// If a file has at least this size, and at least twice the size that the log needs, the log is
+/// written again without undone changes.
 constexpr std::uint64_t usual_bytes = std::uint64_t{1} << 20;
-/// If only steps are taken, the least time between two entries.
+/// The shortest time between two entries while steps are taken and nothing is changed.
 constexpr auto between_places = std::chrono::seconds(1);
 constexpr std::string_view mark = ".unsaved";
 
-/// The stem without the mark of unsaved sessions and the text after the mark. So the file of a
-/// session that continues an unsaved session has the same stem.
+/// Removes the mark of unsaved sessions and the text after it from a stem. So if a session
+/// continues an unsaved session, the files of both have the same stem.
 std::string first_stem(std::string stem) {
     const std::size_t begin = stem.find(mark);
     if (begin != std::string::npos && begin > 0) stem.resize(begin);

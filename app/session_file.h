@@ -22,8 +22,8 @@
 
 namespace cascade {
 
-/// The file is created by the first change or step. Its name is `STEM.unsaved.session`, with a
-/// number if that name is taken. Any thread may call the functions.
+/// The file is created by the first change or step. Its name is `STEM.unsaved.session`. A number is
+/// added if that name is taken. Any thread may call the functions.
 class SessionFile {
 public:
     /// Stores the log of a run. `stem` is the beginning of the names of the run's outputs.
@@ -39,11 +39,11 @@ public:
     /// Makes the destructor leave the file on the disk.
     void leave();
 
-    /// The news for the user since the last call, if any: the path of the new file, or a failure
-    /// with the reason why there is no file.
+    /// Returns what the user must be told since the last call, if anything: the path of the new
+    /// file, or a failure with the reason why there is no file.
     std::optional<Result<std::string>> news();
 
-    /// The files of sessions that were not ended by their users.
+    /// Returns the files of sessions that were not ended by their users.
     static std::vector<std::filesystem::path> left_in(const std::filesystem::path& folder,
                                                       const std::string& stem);
 
@@ -59,7 +59,7 @@ private:
     const std::filesystem::path folder_;
     const std::string stem_, command_;
     const bool has_file_;
-    std::filesystem::path path_;  ///< Empty before the first change.
+    std::filesystem::path path_;  ///< Empty until the file has been created.
     OpenLog log_;
     std::unique_ptr<Descriptor> file_;
     std::uint64_t bytes_ = 0, most_bytes_ = 0;
@@ -68,7 +68,7 @@ private:
     std::optional<Result<std::string>> news_;
 };
 
-/// Prints the news of a file, if there is any.
+/// Prints the news of a file (SessionFile::news()), if there is any.
 void tell_news(SessionFile& file, const Console& console);
 
 /// Prints which files earlier sessions of a script have left, except `file`, from which the present

@@ -34,7 +34,7 @@ std::atomic<pid_t> mpiexec_process{0}, root_process{0};
 std::atomic<int> interrupts{0};
 static_assert(std::atomic<pid_t>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 
-/// The first signal ends the run after a batch of steps. The second one ends it at once.
+/// The first signal ends the run after a batch of steps. The second signal ends it immediately.
 extern "C" void pass_on(int) {
     const pid_t root = root_process, mpiexec = mpiexec_process;
     if (interrupts++ == 0 && root > 0) {
@@ -67,7 +67,8 @@ private:
     std::array<struct sigaction, watched.size()> saved_;
 };
 
-/// The path of the library's mpiexec. Debian appends the library's name to the program's name.
+/// Returns the path of the library's mpiexec. Debian appends the library's name to the program's
+/// name.
 std::optional<std::filesystem::path> find_mpiexec(MpiLibrary library) {
     const char* const path = std::getenv("PATH");
     const bool is_mpich = library == MpiLibrary::mpich;
@@ -94,9 +95,11 @@ std::vector<std::string> command_line(const std::filesystem::path& mpiexec, MpiL
     return words;
 }
 
-/// The ends of the pipes from mpiexec that this process reads (0) and that mpiexec writes (1).
+/// Pipes from mpiexec to this process. Each has an end from which this process reads (element 0),
+/// and an end to which mpiexec writes (element 1).
 struct Pipes {
-    std::array<int, 2> output = {-1, -1};  ///< Open only for MPICH, which explains failures there.
+    /// Open only for MPICH, which writes its explanations of failures to standard output.
+    std::array<int, 2> output = {-1, -1};
     std::array<int, 2> errors = {-1, -1};
 
     ~Pipes() {
@@ -112,7 +115,7 @@ struct Pipes {
     }
 };
 
-/// In the child process: becomes mpiexec.
+/// Turns this process, which is the child process, into mpiexec.
 [[noreturn]] void become(std::vector<std::string> words, const Pipes& pipes) {
     ::setpgid(0, 0);
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);
@@ -138,12 +141,12 @@ void remember_root(const MpiexecOutput& output) {
     if (interrupts > 0) ::kill(root_process, SIGINT);
 }
 
-/// One of the streams of mpiexec and the ranks, line by line.
+/// Reads one of the streams of mpiexec and the ranks line by line.
 struct ReadStream {
     int pipe = -1;
     std::function<void(const std::string& text)> pass_on;
     MpiexecOutput seen = {};
-    std::string text = {};  ///< The beginning of the next line.
+    std::string text = {};  ///< The part of the next line that has been read.
 
     /// Reads the available bytes. Returns whether the stream has ended.
     bool read_some() {
@@ -167,19 +170,21 @@ struct ReadStream {
     }
 };
 
-/// The output of mpiexec and the ranks.
+/// What was learnt from the output of mpiexec and the ranks.
 struct WrittenStreams {
     MpiexecOutput output, errors;
-    bool is_stuck = false;  ///< mpiexec was ended, because it did not notice the end of the ranks.
+    /// Whether mpiexec was ended, because it did not notice the end of the ranks.
+    bool is_stuck = false;
 };
 
-/// Ends mpiexec if all ranks have ended, but mpiexec still waits for them. Open MPI 4.1 does so if
-/// a rank is killed while the ranks connect to each other.
+/// Ends mpiexec if all ranks have ended, but mpiexec still waits for them. Open MPI 4.1 waits
+/// forever if a rank is killed while the ranks connect to each other.
 class StuckLauncher {
 public:
-    /// To be called whenever this time has passed without output.
+    /// look() must be called whenever this time has passed without output.
     static constexpr int milliseconds = 3000;
-    /// Returns whether mpiexec was ended.
+    /// Ends mpiexec if several successive looks have found no running rank. Returns whether mpiexec
+    /// was ended.
     bool look() {
         const pid_t mpiexec = mpiexec_process;
         if (mpiexec <= 0) return false;
@@ -191,7 +196,7 @@ public:
 
 private:
     static constexpr int most_looks = 4;
-    int looks_ = 0;  ///< The number of successive looks that found no rank.
+    int looks_ = 0;  ///< The number of successive looks that found no running rank.
 };
 
 /// Prints the messages of ranks until mpiexec and all ranks have closed the pipes.

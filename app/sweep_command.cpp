@@ -24,8 +24,8 @@ namespace cascade {
 
 namespace {
 
-/// A summary: "81 runs (12 done before), 2,430,000 steps in 41.20 s", or "part 3 of 100: 27 runs
-/// …".
+/// Summarises a sweep: "81 runs (12 done before), 2,430,000 steps in 41.20 s", or "part 3 of 100:
+/// 27 runs …".
 std::string summary(const SweepReport& report, const SweepPart& part) {
     std::string text;
     if (!part.is_all()) text = fmt::format("part {} of {}: ", part.number, part.count);
@@ -78,8 +78,8 @@ int tell(const SweepReport& report, const Options& options, int signal, bool lim
     return exit_status::failed_run;
 }
 
-/// The variations that options give. If there are no such options, the variations stored in `file`,
-/// which is then the sheet of an earlier sweep.
+/// Returns the variations that options give. If there are no such options, returns the variations
+/// stored in `file`, which is then the sheet of an earlier sweep.
 Result<std::vector<Variation>> variations(const Options& options, const LoadedFile& file) {
     std::vector<Variation> varied = options.sweep.varied;
     if (options.sweep_seeds) varied.push_back(*options.sweep_seeds);
@@ -144,7 +144,7 @@ int sweep_script(const Options& options, Console& console, Ranks* ranks) {
     ProgressDisplay display = make_progress_display(console, options.quiet || !is_first);
     control.report = [&](const SweepProgress& progress) { display.show(progress); };
     std::atomic<bool> hurry = false;
-    const std::atomic<bool> may_end = true;  // Each run that is done has been kept.
+    const std::atomic<bool> may_end = true;  // The results of each complete run have been written.
     const LastMoments last(options.limit_seconds, hurry, may_end);
     std::atomic<bool> ignored = false;  // Rank 0 ends the runs of all ranks.
     const InterruptGuard interrupt(is_first ? control.cancel : ignored);

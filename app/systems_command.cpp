@@ -71,7 +71,7 @@ std::vector<std::string> library_names() {
     return names;
 }
 
-/// The description of a system or shape of the library.
+/// Returns the description of a system or shape of the library.
 LibraryNote note_of_name(std::string_view name) {
     const LibraryText* const system = find_library_text(name);
     return note_of(system != nullptr ? *system : *find_shape_text(name));
@@ -84,7 +84,7 @@ Failure unknown_system(std::string_view name) {
                          : fmt::format("did you mean '{}'?", near)};
 }
 
-/// The systems of the library that contain all `words`.
+/// Returns the systems of the library that contain all `words`.
 std::vector<std::string> matches(const std::vector<std::string>& words) {
     std::vector<std::string> names;
     for (const std::string& name : library_names()) {
@@ -107,8 +107,8 @@ bool is_script_path(const std::string& word) {
 
 namespace {
 
-/// A hint for a word that occurs in no system. Names systems that contain the longest possible
-/// beginning of the word, which must have at least four letters.
+/// Returns a hint for a word that occurs in no system. The hint names systems that contain the
+/// longest possible beginning of the word. This beginning must have at least four letters.
 std::string hint_by_beginning(const std::string& word) {
     constexpr std::size_t fewest_letters = 4, most_named = 6;
     for (std::size_t letters = word.size(); letters-- > fewest_letters;) {

@@ -40,8 +40,8 @@ std::vector<int> numbers_in(std::string_view text) {
     return numbers;
 }
 
-/// The parameters of the first control sequence that begins with `begin` and ends with `end`. Empty
-/// if there is none.
+/// Returns the parameters of the first control sequence that begins with `begin` and ends with
+/// `end`. Returns an empty optional if there is none.
 std::optional<std::string_view> sequence(std::string_view text, std::string_view begin, char end) {
     for (std::size_t at = text.find(begin); at != std::string_view::npos;
          at = text.find(begin, at + 1)) {
@@ -79,7 +79,8 @@ private:
     bool is_on_;
 };
 
-/// Everything that the terminal sends until it has listed its features, or within one second.
+/// Sends a query, and returns everything that the terminal sends until it has listed its features.
+/// Waits for at most one second.
 std::string answers_to(const Stream& out, const std::string& query) {
     using Clock = std::chrono::steady_clock;
     constexpr std::size_t longest = 4096;
@@ -115,8 +116,8 @@ bool may_ask_for_kitty() {
            variable("TERM_PROGRAM") != "Apple_Terminal";
 }
 
-/// The largest picture that fits into `width` × `height` pixels. It is enlarged by an integer, or
-/// reduced by averaging.
+/// Scales a picture to the largest size that fits into `width` × `height` pixels. Enlarges it by an
+/// integer of at most `most_enlarged`, or reduces it by averaging.
 Image fitted(const Image& image, std::int64_t width, std::int64_t height, int most_enlarged) {
     const std::int64_t fitting = std::min(width / image.width, height / image.height);
     if (fitting >= 1) {

@@ -18,12 +18,12 @@ struct TerminalPictures {
     PictureProtocol protocol = PictureProtocol::characters;
     int cell_width = 10, cell_height = 20;  ///< The size of a character in pixels.
 
-    /// The text that draws a picture, which is never higher than the window. If the terminal can
-    /// show pixels, the picture replaces an earlier one with the same id.
+    /// Returns the text that draws a picture. The picture is never higher than the window. If the
+    /// terminal can show pixels, the picture replaces an earlier one with the same id.
     std::string draw(const Image& image, const Stream& out,
                      std::optional<std::uint32_t> id = std::nullopt) const;
-    /// The text that erases a picture of `lines` lines above the cursor, and moves the cursor to
-    /// where the picture began.
+    /// Returns the text that erases a picture of `lines` lines above the cursor, and moves the
+    /// cursor to where the picture began.
     std::string erase(std::int64_t lines, std::uint32_t id) const;
 };
 

@@ -94,7 +94,7 @@ std::string remark_on_kernels(const KernelCounts& kernels) {
 }  // namespace
 
 std::string time_table(TimeAccount& account, bool bars) {
-    // Time passes while the table is made, so each time is read only once.
+    // Time passes while the table is made, so each time is read only once, here.
     std::vector<double> seconds_of_parts;
     for (const Part& part : parts) seconds_of_parts.push_back(account.seconds(part.what));
     const double everything =

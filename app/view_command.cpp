@@ -94,7 +94,7 @@ void open_in_browser(const std::string& path) {
     posix_spawn_file_actions_destroy(&actions);
 }
 
-/// The script that runs until the user chooses a system of the library in the page.
+/// Returns the script that runs until the user chooses a system of the library in the page.
 LoadedFile script_to_replace(const Overrides& overrides) {
     const std::string text = starting_script(*find_library_text("gray_scott"));
     return {load_script("new.cascade", text, ".", overrides), ""};

@@ -12,7 +12,7 @@
 namespace cascade {
 namespace {
 
-/// The planes of a kernel, by number and name.
+/// Lists the planes of a kernel by number and name.
 std::string planes_of(const CellKernel& kernel, std::size_t first) {
     std::string fields, results;
     for (const std::string& name : kernel.field_names) {

@@ -11,8 +11,8 @@ namespace cascade {
 
 inline constexpr std::string_view wgsl_kind = "wgsl";
 
-/// A program in WGSL for one step of each stage. Fails for stages in double precision and for
-/// models, whose cells are known only in a run.
+/// Writes a program in WGSL for one step of each stage. Fails for stages in double precision and
+/// for models, whose cells are known only in a run.
 Result<std::string> dump_wgsl(const Program& program);
 
 }  // namespace cascade

@@ -22,11 +22,11 @@ using Seams = std::vector<std::array<bool, 3>>;
 /// several positions in the chart.
 struct Chart {
     std::vector<std::uint32_t> triangles;  ///< Indices of triangles of the surface.
-    /// Per triangle: its corners as indices of positions.
+    /// The corners of each triangle, as indices of positions.
     std::vector<std::array<std::uint32_t, 3>> corners;
     std::vector<Vector2d> places;  ///< Positions in the plane.
-    /// Per triangle: the direction in the plane, of length 1, of the x axis of its own frame
-    /// (shape_of).
+    /// For each triangle, the direction (of length 1) that the x axis of the triangle's own frame
+    /// (shape_of) has in the plane.
     std::vector<Vector2d> turns;
 
     /// Rotates all positions about the origin.
@@ -58,8 +58,8 @@ Chart chart_of(const SurfaceMesh& mesh, const Seams& seams, std::vector<std::uin
 /// this order. The smallest is negative if the image is mirrored.
 std::array<double, 2> stretches(const FlatTriangle& shape, const FlatTriangle& image);
 
-/// The largest factor by which lengths change, ≥ 1: the larger stretch or the reciprocal of the
-/// smaller one, whichever is larger. Infinite if the image has no area or is mirrored.
+/// The largest factor by which lengths change, ≥ 1. It is the larger stretch or the reciprocal of
+/// the smaller one, whichever is larger. Infinite if the image has no area or is mirrored.
 inline double distortion(const std::array<double, 2>& stretches) {
     if (!(stretches[1] > 0)) return std::numeric_limits<double>::infinity();
     return std::max(stretches[0], 1 / stretches[1]);

@@ -1,5 +1,5 @@
-// The smallest rectangle has a side that contains an edge of the convex hull, so each edge is
-// tried.
+// Tries each edge of the convex hull, because one side of the smallest rectangle contains such an
+// edge.
 #include "atlas/chart_box.h"
 
 #include <utility>

@@ -77,7 +77,7 @@ public:
         }
     }
 
-    /// Sets the rotation of each triangle and returns the mean square of their changes.
+    /// Sets the rotation of each triangle. Returns the mean square of the changes of rotations.
     double find_turns() {
         double sum = 0;
         for (std::size_t n = 0; n < rigid_.size(); ++n) {

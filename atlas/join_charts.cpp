@@ -1,5 +1,6 @@
-// Works in rounds. A round sorts pairs of charts by the fraction of their outline that would
-// disappear, takes each chart in at most one pair, and tries to join all these pairs in parallel.
+// Works in rounds. A round sorts pairs of charts by the fraction of their outline that joining
+// would remove, takes each chart in at most one pair, and tries to join all these pairs in
+// parallel.
 #include "atlas/join_charts.h"
 
 #include "atlas/chart_box.h"
@@ -26,7 +27,7 @@ constexpr double least_gain = 0.12;
 // Limits of a chart's length, so that a square of area 1 has room for other charts beside it.
 constexpr double longest_side = 1.5, longest_joined_side = 1.1;
 constexpr double least_filled = 0.55, small_joined_area = 1.0 / 64;
-/// The most triangles of a joined chart, to limit the time.
+/// The largest number of triangles of a joined chart. It limits the time.
 constexpr std::size_t most_triangles = 250'000;
 constexpr int rounds_of_trial = 8;
 
@@ -164,11 +165,11 @@ private:
         }
     }
 
-    /// The longest part of a border along which both charts continue without a cut.
+    /// The longest part of a border along which neither chart has a cut.
     std::vector<TriangleEdge> longest_run(const Pair& pair) const {
         const std::vector<TriangleEdge>& border = pair.edges;
         struct End {
-            /// The positions of a point in both charts, and the index of an edge of the border.
+            /// The point's positions in both charts, and the index of an edge of the border.
             std::uint32_t here, there, edge;
         };
         std::vector<End> ends;
@@ -260,7 +261,8 @@ private:
     Seams& seams_;
     std::span<std::uint32_t> numbers_;
     std::vector<std::uint32_t> chart_of_;  ///< The chart of each triangle.
-    std::vector<std::uint8_t> is_used_;    ///< 0 once a chart has been joined.
+    /// 1 until the chart has been joined to another one, then 0.
+    std::vector<std::uint8_t> is_used_;
     /// Edges with a seam. Only one side of each edge is listed.
     std::vector<TriangleEdge> border_;
     std::set<std::pair<std::uint32_t, std::uint32_t>> failed_;

@@ -26,8 +26,8 @@ void in_turn(Team& team, std::size_t count, const std::atomic<bool>& cancel, con
     if (lacks_memory) throw std::bad_alloc();
 }
 
-/// Whether a chart has no overlaps, is at most 1.5 long and has little distortion. Small charts may
-/// have more distortion. The unit of length is the square root of the surface's area.
+/// Whether a chart has no overlaps, is at most 1.5 long and has little distortion. Small charts are
+/// allowed more distortion. The unit of length is the square root of the surface's area.
 bool is_good(const SurfaceMesh& mesh, const Seams& seams, const Chart& chart);
 
 /// Joins charts as long as the joined charts fulfil is_good(), and removes the seams between them.

@@ -1,4 +1,4 @@
-// Tries factors that are powers of a number slightly below 1. By bisection, finds the largest with
+// Scales charts by powers of a number slightly below 1. Finds, by bisection, the largest power with
 // which the charts fit.
 #include "atlas/pack_charts.h"
 
@@ -41,8 +41,8 @@ public:
     /// Makes a square of free cells.
     explicit CellRows(int side);
 
-    /// Of all free positions for a shape, the one with the smallest y and, among these, the
-    /// smallest x. y is at least `lowest`, and y + height is below `limit`.
+    /// Finds the free position for a shape with the smallest y and, among these, the smallest x. y
+    /// is at least `lowest`, and y + height is below `limit`.
     std::optional<CellPlace> find_room(const CellShape& shape, int lowest, int limit) const;
 
     /// Occupies the cells of a shape and the eight cells around each of them.
@@ -130,7 +130,8 @@ void CellRows::take(const CellShape& shape, CellPlace place) {
 
 constexpr double step_of_scale = 0.98;
 constexpr int most_steps = 700;  ///< 0.98⁷⁰⁰ is 10⁻⁶.
-constexpr int small_shape = 12;  ///< In cells. A smaller shape is tried in one orientation only.
+/// The largest size, in cells, of a shape that is tried in one orientation only.
+constexpr int small_shape = 12;
 
 Vector2d quarter_turned(Vector2d v, int quarters) {
     const std::array<Vector2d, 4> turned = {v, Vector2d{-v.y, v.x}, Vector2d{-v.x, -v.y},
@@ -153,7 +154,7 @@ CellShape shape_of_chart(const Chart& chart, double scale, int quarters) {
         for (Vector2d& p : flat) p = quarter_turned(p, quarters) * scale - bounds.low;
         const auto [low, high] = std::minmax({flat[0].y, flat[1].y, flat[2].y});
         for (int row = cell(low); row <= cell(high); ++row) {
-            // The range of the triangle within this row.
+            // The range along x in which the triangle covers this row.
             double left = std::numeric_limits<double>::infinity(), right = -left;
             for (std::size_t k = 0; k < 3; ++k) {
                 Vector2d a = flat[k], b = flat[corner_after(k)];
@@ -226,7 +227,7 @@ public:
 
     double run(const std::atomic<bool>& cancel) {
         for (const auto& order : orders_) {
-            // An order of charts is only worth a search if it fits at a smaller step than the best
+            // Searches with this order of charts only if it fits at a smaller step than the best
             // order so far.
             if (fitting_ <= most_steps && !fits(fitting_ - 1, order, cancel)) continue;
             search(order, cancel);
@@ -272,8 +273,8 @@ private:
 
     std::optional<std::vector<Placed>> place_all(double scale, const Order& order,
                                                  const std::atomic<bool>& cancel) {
-        // One row and one column of cells at the upper sides stay free. Half of this width is later
-        // moved to the lower sides.
+        // One row and one column of cells at the upper sides stay free. Half of their width is
+        // later moved to the lower sides.
         CellRows rows(cells_ - 1);
         std::vector<Placed> placed(charts_.size());
         std::map<std::pair<int, int>, int> full_below;
@@ -320,7 +321,7 @@ private:
     std::span<Chart> charts_;
     int cells_;
     double area_ = 0;
-    std::array<Order, 3> orders_;   ///< The largest chart first, by three measures of size.
+    std::array<Order, 3> orders_;   ///< Orders by three measures of size, the largest chart first.
     int fitting_ = most_steps + 1;  ///< The best step so far.
     std::vector<Placed> best_;      ///< The positions of the charts at this step.
 };

@@ -15,7 +15,7 @@ namespace {
 constexpr std::uint32_t none = 0xffffffff;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double flat_cost = 0.2;      ///< The cost of a path on flat parts, per unit of length.
-constexpr double crease_cost = 0.5;    ///< The cost of crossing a crease of 90°, in lengths.
+constexpr double crease_cost = 0.5;    ///< The cost of crossing a crease of 90°, as a length.
 constexpr double least_crease = 0.13;  ///< One minus the cosine of 30°.
 /// The cosine of 50°. A triangle bends too much if the cosine between its normal and the patch's
 /// mean normal is smaller.
@@ -118,7 +118,7 @@ public:
 private:
     struct Patch {
         double area = 0, bent = 0;
-        Vector3d sum, axis;  ///< The sum of normals times areas, and its direction.
+        Vector3d sum, axis;  ///< The sum of normals times areas, and the direction of this sum.
         Vector3d centre;
         std::uint32_t middle = none, farthest = none;  ///< Indices of nodes.
     };
@@ -152,8 +152,8 @@ private:
         for (std::uint32_t t = 0; t < nodes_.size(); ++t) visit(t, patches_[growth_.owners[t]]);
     }
 
-    /// Gives a triangle that juts out into another patch to that patch, if two of the triangle's
-    /// edges are at that patch and the seam becomes shorter. The patch that loses the triangle
+    /// Moves each triangle that juts out into another patch to that patch, if the triangle has two
+    /// edges at the other patch and the seam becomes shorter. The patch that loses the triangle
     /// stays connected.
     void straighten() {
         std::vector<std::uint32_t>& owners = growth_.owners;

@@ -1,4 +1,4 @@
-// Measures the covered and the shared fraction by samples. All other facts are exact.
+// Estimates the covered and the shared fraction from samples. All other facts are exact.
 #include "atlas/texture_facts.h"
 
 #include "atlas/chart.h"

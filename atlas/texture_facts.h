@@ -26,8 +26,8 @@ struct TextureFacts {
     std::size_t without_area = 0, without_place = 0;
 };
 
-/// Facts about the texture coordinates of a mesh, which must have some, from 1024 × 1024 samples.
-/// Throws std::bad_alloc.
+/// Finds facts about the texture coordinates of a mesh, which must have some, with 1024 × 1024
+/// samples. Throws std::bad_alloc.
 TextureFacts texture_facts(const SurfaceMesh& mesh);
 
 }  // namespace cascade

@@ -71,7 +71,8 @@ TextureLayout::TextureLayout(const SurfaceMesh& mesh, std::int64_t width, std::i
         repeats_ =
             repeats_ || drawn.top != 0 || drawn.bottom != 0 || drawn.left != 0 || drawn.right != 0;
         area += std::abs(twice) / 2;
-        if (twice > 0) mirrored += twice / 2;  // In the texture, rows go down.
+        // Rows go down in the texture, so a mirrored triangle has a positive area.
+        if (twice > 0) mirrored += twice / 2;
     }
     const double all = static_cast<double>(width) * static_cast<double>(height);
     covered_area_ = area / all;

@@ -28,19 +28,18 @@ public:
     /// The total area of all triangles, as a multiple of the texture's area. Above 1, the triangles
     /// cannot all fit without overlaps.
     double covered_area() const { return covered_area_; }
-    /// The fraction of that area in triangles whose image is mirrored.
+    /// The fraction of covered_area() that belongs to mirrored triangles.
     double mirrored_part() const { return covered_area_ > 0 ? mirrored_area_ / covered_area_ : 0; }
     /// Whether a triangle has samples beyond 0 … 1, where the texture repeats.
     bool repeats() const { return repeats_; }
     static constexpr float largest_place = 256;
 
-    /// Finds, row by row, the triangle at the centre of each sample in rows first … last − 1. If
-    /// there are several triangles, this is the first of them. If there is none, it is `nothing`. A
-    /// sample on the edge between two triangles is in one of them. `owners` has (last − first) ·
-    /// width() elements.
+    /// Finds, row by row, the first triangle at the centre of each sample in rows first … last − 1,
+    /// or `nothing` if no triangle is there. A sample on the edge between two triangles is in one
+    /// of them. `owners` has (last − first) · width() elements.
     struct Overlap {
-        std::int64_t again = 0;   ///< The number of triangles at a sample in addition to the first,
-                                  ///< summed over all samples.
+        /// The number of triangles at a sample in addition to the first, summed over all samples.
+        std::int64_t again = 0;
         std::int64_t shared = 0;  ///< The number of samples in several triangles.
     };
     Overlap find_owners(std::int64_t first, std::int64_t last,
@@ -56,7 +55,7 @@ private:
         FlatTriangle corners;
         double sign =
             0;  ///< 1 or −1: the sign of the triangle's area. 0 if the triangle is not drawn.
-        std::int64_t first = 0, last = 0;  ///< Its rows, without wrapping.
+        std::int64_t first = 0, last = 0;  ///< The triangle's rows, without wrapping.
         /// The repetitions of the texture that the triangle touches.
         std::int64_t top = 0, bottom = 0, left = 0, right = 0;
     };

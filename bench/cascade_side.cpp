@@ -118,7 +118,7 @@ CascadeSide::CascadeSide(const std::string& text, Backend& backend, Rounding rou
     : script_(load_script("bench", text, ".", overrides_for(rounding))) {
     if (!script_.program) give_up(script_.messages(false));
     SimulationOptions options;
-    options.backend = "interp";  // Only for the starting values.
+    options.backend = "interp";  // The interpreter computes only the starting values.
     options.threads = 1;
     simulation_ = must(Simulation::create(script_, options));
     if (auto started = simulation_->start_stage(0); !started) give_up(started.error().message);

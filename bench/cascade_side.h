@@ -25,8 +25,9 @@ std::string gray_scott_text(const GridSize& grid);
 std::string stripes_text(const GridSize& grid);        ///< ai varies by cell.
 std::string cahn_hilliard_text(const GridSize& grid);  ///< Two passes per step.
 std::string chemotaxis_text(const GridSize& grid);     ///< Fluxes at faces.
-std::string tensor_text(const GridSize& grid);         ///< Diffusion with a direction, flux form.
-std::string allen_cahn_text(const GridSize& grid);     ///< One species: the least work per cell.
+/// Diffusion with a direction, in flux form.
+std::string tensor_text(const GridSize& grid);
+std::string allen_cahn_text(const GridSize& grid);  ///< One species: the least work per cell.
 std::string rock_scissors_paper_text(const GridSize& grid);  ///< Three species.
 std::string perona_malik_text(
     const GridSize& grid);  ///< An exponential per cell, fluxes, two passes.
@@ -44,13 +45,13 @@ public:
     /// steps.
     void advance(std::int64_t count);
 
-    /// Another stepper, at the starting values. This object must outlive it.
+    /// Another stepper, at the starting values. This object must outlive the stepper.
     Stepper fresh_stepper() const;
 
     std::span<const Field> species() { return stepper_->species(); }
     const StageState& start() const { return simulation_->state(0); }
     const Grid& grid() const { return simulation_->domain().grid; }
-    /// A parameter that varies by cell, by its name.
+    /// The field of a parameter that varies by cell.
     const Field& parameter(const std::string& name) const;
 
 private:
@@ -66,8 +67,8 @@ private:
 
 std::int64_t cell_count(const GridSize& grid);
 
-/// The number of steps between two checks in a run: 64. On grids so large that 64 steps would take
-/// more than half a second, the steps of one tile.
+/// The number of steps between two checks in a run: 64, or the steps of one tile if 64 steps would
+/// take more than half a second.
 std::int64_t steps_between_looks(const GridSize& grid);
 
 /// The largest difference between the cells of two states of a grid, over all species. Infinite if

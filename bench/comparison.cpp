@@ -46,7 +46,7 @@ std::vector<System> systems() {
              in_space}};
 }
 
-/// One system at one size, on both sides.
+/// Both sides of the comparison, for one system at one size.
 struct Contest {
     Contest(const System& system, std::int64_t side, Backend& backend)
         : steps(steps_between_looks(system.grid(side))),
@@ -83,8 +83,8 @@ std::string title(const System& system, std::int64_t side, const std::string& wh
     return fmt::format("{}/{}/{}", system.name, side, who);
 }
 
-/// The sides take turns. Each is made when first needed and freed after the comparison, because
-/// large ones take much memory.
+/// Measures both sides in turns. Each side is made when it is first needed and freed after the
+/// comparison, because large grids take much memory.
 void run_contest(Backend& backend, const System& system, std::int64_t side, Medians& times) {
     std::unique_ptr<Contest> contest;
     const auto add = [&](const std::string& who, auto advance) {

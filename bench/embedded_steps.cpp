@@ -21,7 +21,7 @@ constexpr std::int64_t warm_up = 256;
 
 struct Kind {
     const char* name;
-    const char* stage;  ///< The stage without its end, which is far away.
+    const char* stage;  ///< A stage without its closing brace. Its end is never reached.
 };
 constexpr Kind kinds[] = {
     {"spots", "stage only: turing_spots { iterations: 100000000; ka: 1/80"},

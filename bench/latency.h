@@ -8,11 +8,12 @@
 
 namespace cascade::bench {
 
-/// Measures and prints the first use of the compiler in this process, so it must be called before
-/// all else. Returns the backend that was made.
+/// Measures and prints how long the first use of the compiler in this process takes, so it must be
+/// called before all else. Returns the backend that was made.
 std::unique_ptr<Backend> first_use(int lanes);
 
-/// Measures and prints later compilations, changes that need none, and 2000 steps of 64 × 64 cells.
+/// Measures and prints how long later compilations, changes without compilation, and 2000 steps of
+/// 64 × 64 cells take.
 void later_use(Backend& backend);
 
 }  // namespace cascade::bench

@@ -18,15 +18,15 @@ bool initialize_benchmarks(int argc, char** argv);
 class Medians : public benchmark::BenchmarkReporter {
 public:
     /// Hides the error that no benchmark matches, because a filter leaves most comparisons without
-    /// any.
+    /// a benchmark.
     Medians() { SetErrorStream(&nowhere_); }
 
     bool ReportContext(const Context&) override { return true; }
     void ReportRuns(const std::vector<Run>& runs) override;
 
-    /// Median of the seconds per iteration; 0 if the benchmark was filtered out.
+    /// Median of the seconds per iteration, or 0 if the benchmark was filtered out.
     double median(const std::string& name);
-    /// The least seconds per iteration; 0 if the benchmark was filtered out.
+    /// The least seconds per iteration, or 0 if the benchmark was filtered out.
     double least(const std::string& name);
 
 private:

@@ -141,7 +141,7 @@ void whole(const std::string& path, std::size_t count, int threads) {
 
 void measure(const std::string& path, std::size_t count, int threads) {
     fmt::print("\n{} cells, {} threads\n{:<24}{:>9}{:>9}\n", count, threads, "", "wall", "cores");
-    // Called first, so that its peak of memory is measured.
+    // The whole run comes first, so that its peak of memory is measured.
     whole(path, count, threads);
     rusage used{};
     getrusage(RUSAGE_SELF, &used);

@@ -1,4 +1,4 @@
-// cascade_solver_times: how long each solver takes to an equally good pattern, and how good the
+// cascade_solver_times: how long each solver takes to grow a pattern, and how good the
 // pattern is.
 //
 // usage: cascade_solver_times [--threads=N] [--solver=NAME…] [--pattern=NAME…] [--tolerance=E]
@@ -69,7 +69,8 @@ struct Choice {
     std::vector<std::string> patterns = {"large", "small"};
     std::vector<std::int64_t> sides = {256, 1024};
     int threads = 1;
-    std::string tolerance;  ///< A setting of all stages but Euler's; if empty, the default.
+    /// The tolerance of all solvers but Euler's method. If empty, the default.
+    std::string tolerance;
 };
 
 struct Outcome {
@@ -94,7 +95,7 @@ double seconds_since(std::chrono::steady_clock::time_point before) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
 }
 
-/// Grows a pattern. Empty, with a line on stderr, if the solver does not support it.
+/// Grows a pattern. If the solver does not support it, prints a line on stderr and returns nothing.
 std::optional<Outcome> grow(const Pattern& pattern, const std::string& solver, std::int64_t side,
                             const Choice& choice) {
     Overrides changes;
@@ -212,7 +213,7 @@ void compare(const Pattern& pattern, std::int64_t side, const Choice& choice, Ba
     std::fflush(stdout);
 }
 
-/// Empty if a word is not in the usage.
+/// Reads the command line. Returns nothing if a word is not in the usage.
 std::optional<Choice> read_choice(int argc, char** argv) {
     Choice choice;
     std::vector<std::string> solvers, patterns;

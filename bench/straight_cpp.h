@@ -12,7 +12,7 @@ struct StraightFields {
     const float* now[5];         ///< Species of the old step, with their halos filled.
     float* next[5];              ///< Species of the new step.
     const float* varying;        ///< beta of Turing's system, ai of the stripes.
-    const std::uint8_t* frozen;  ///< For Turing's system only, unless it has no mask.
+    const std::uint8_t* frozen;  ///< Only for Turing's system, and only if it has a mask.
     /// Written by the first of two passes: Cahn-Hilliard's chemical potential, Perona and Malik's
     /// conductivity, or Swift-Hohenberg's inner operator.
     float* scratch;

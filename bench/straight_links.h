@@ -11,7 +11,7 @@ struct LinkedTuring {
     float step, s, diffusion_u, diffusion_v;
 };
 
-/// Planes of cells, from cell 0 on; `now` and `next` are u and v.
+/// Planes of cells, which begin with cell 0. `now` and `next` hold the planes of u and v.
 struct LinkedPlanes {
     const float* now[2];
     float* next[2];

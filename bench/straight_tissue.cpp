@@ -1,4 +1,5 @@
-// Compiled for this machine, with separate flags.
+// The loop over cells and their neighbours. This file is compiled for this machine, with separate
+// flags.
 #include "bench/straight_tissue.h"
 
 #include <cmath>

@@ -174,7 +174,7 @@ void rates_of_kernel(Scene& s, const Kernel& kernel) {
                {{0, layout.height}});
 }
 
-/// One number per cell, without gaps between rows.
+/// The tissue's data as plain C++ reads it: vectors with one number per cell.
 struct StraightCells {
     explicit StraightCells(const Scene& scene)
         : lists(scene.lists), to(results, std::vector<float>(cells)) {
@@ -203,7 +203,7 @@ KernelPointer native_rates() {
     return *kernel;
 }
 
-/// Checks that both sides compute the same.
+/// Checks that both sides compute the same rates.
 void check_agreement() {
     Scene& s = scene();
     StraightCells straight(s);

@@ -25,9 +25,9 @@ struct Point {
     Place place;
     Tangent tangent;
     PointKind kind = PointKind::regular;
-    int crossing = 0;  ///< For special points: the number of eigenvalues that pass 0.
-    /// For branch points: whether this branch consists of patterns, but is the same in all cells at
-    /// this point.
+    int crossing = 0;  ///< The number of eigenvalues that pass 0 at a special point.
+    /// Whether the state of a branch point is the same in all cells, although the branch consists
+    /// of patterns.
     bool vanishes = false;
     /// The number of eigenvalues with positive real part. Empty if they could not be found.
     std::optional<int> growing;
@@ -37,16 +37,17 @@ struct Point {
 
 struct Branch {
     std::vector<Point> points;
-    /// The indices of another branch and of its point from which this branch was reached. Empty for
-    /// the first branch.
+    /// The index of the branch from which this branch was reached, and the index of the point on
+    /// that branch. Empty for the first branch.
     std::optional<std::pair<std::size_t, std::size_t>> from;
-    std::string begins, ends;  ///< Why it is not followed beyond each end.
+    /// The reasons why the branch is not followed beyond its first and its last point.
+    std::string begins, ends;
 };
 
 struct FollowSettings {
     double low = 0, high = 1;       ///< The range of the parameter.
-    double step = 0.05;             ///< The longest step, in the lengths of Scales.
-    std::size_t most_points = 400;  ///< The most points of a branch in each direction.
+    double step = 0.05;             ///< The length of the longest step, as Scales measures it.
+    std::size_t most_points = 400;  ///< The largest number of points of a branch in each direction.
     std::size_t most_branches = 1;
     bool finds_stability = true;
     std::function<void(std::size_t branch, std::size_t points, double parameter)> report;
@@ -59,7 +60,8 @@ public:
         : corrector_(corrector), settings_(std::move(settings)) {}
 
     /// Follows the branch through a solved place in both directions, then the branches that meet
-    /// it, and those that meet these, as many as the settings allow.
+    /// it, then the branches that meet those, and so on, until the settings allow no further
+    /// branch.
     std::vector<Branch> follow(const Corrector::Solved& start);
 
 private:
@@ -92,8 +94,8 @@ private:
     std::vector<Branch> branches_;
     /// The eigenvalues with positive real part at the point whose stability was found last.
     mutable std::vector<Complex> growing_before_;
-    std::vector<Place> meetings_;  ///< The branch points from which a branch was followed or at
-                                   ///< which one has ended.
+    /// The branch points from which a branch was followed or at which one has ended.
+    std::vector<Place> meetings_;
 };
 
 }  // namespace cascade::continuation

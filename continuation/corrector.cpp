@@ -1,6 +1,6 @@
-// Each step of Newton's method is one sparse elimination. Its matrix is the Jacobian, with the
-// equations of the arc and of the freedoms as a border (H. B. Keller, "Numerical solution of
-// bifurcation and nonlinear eigenvalue problems", 1977).
+// Each step of Newton's method is one sparse elimination. Its matrix is the Jacobian, bordered by
+// the equations of the arc and of the freedoms (H. B. Keller, "Numerical solution of bifurcation
+// and nonlinear eigenvalue problems", 1977).
 #include "continuation/corrector.h"
 
 #include <cmath>
@@ -12,10 +12,13 @@ namespace {
 
 constexpr int most_rounds = 12;
 constexpr int rounds_of_modes = 5;
-constexpr double end_of_steps = 1e-9;      ///< The length of a last step, in the lengths of Scales.
-constexpr double largest_residual = 1e-8;  ///< Of the rates, in parts of size_of_rates().
+/// The iteration ends after a step shorter than this, as Scales measures lengths.
+constexpr double end_of_steps = 1e-9;
+/// The largest rate that counts as 0, as a fraction of size_of_rates().
+constexpr double largest_residual = 1e-8;
 
-/// The solution of a system, refined once from its residual. Empty if the matrix has no inverse.
+/// Solves a system, and refines the solution once from its residual. Empty if the matrix has no
+/// inverse.
 std::optional<Vector> solution(const SparseColumns& matrix, const Factors& factors,
                                const Vector& right) {
     Vector x = factors.solve(right);
@@ -23,7 +26,7 @@ std::optional<Vector> solution(const SparseColumns& matrix, const Factors& facto
     const Vector rest = right - matrix * x;
     x += factors.solve(rest);
     if (!x.allFinite()) return std::nullopt;
-    // The elimination does not report every singular matrix, so this checks the solution.
+    // The elimination does not report every singular matrix, so the solution is checked.
     const Vector left = right - matrix * x;
     return left.norm() <= 1e-6 * right.norm() ? std::optional(x) : std::nullopt;
 }
@@ -41,10 +44,11 @@ Freedoms Corrector::freedoms_at(const Place& place) const {
     if (holds_motions_) {
         for (Vector& each : problem_.motions(place.state)) {
             // A motion does not change a uniform state, and a motion along stripes does not change
-            // them.
+            // the stripes.
             const double size = std::sqrt((each.array().square() * scales_.weights.array()).sum());
             if (size < 1e-6) continue;
-            // Motions along both axes change oblique stripes in the same way, so only one counts.
+            // Motions along both axes change oblique stripes in the same way, so only one of the
+            // two counts.
             const double length = each.norm();
             for (const Vector& other : moved) each -= other.dot(each) * other;
             if (each.norm() > problem_.least_part() * length) moved.push_back(each.normalized());
@@ -74,7 +78,7 @@ SparseColumns Corrector::whole(const Linearised& at, const Freedoms& freedoms,
     return with_border(at.jacobian, columns, rows, corner);
 }
 
-/// For each rate, adds up the magnitudes of its linear terms. Returns the largest of these sums.
+/// Adds up, for each rate, the magnitudes of its linear terms. Returns the largest sum.
 double Corrector::size_of_rates(const Linearised& at, const Vector& state) const {
     Vector sums = Vector::Constant(state.size(), 1e-300);
     for (Index column = 0; column < at.jacobian.cols(); ++column) {

@@ -23,8 +23,9 @@ using Direction = Place;
 /// The direction of a branch at one of its points.
 struct Tangent : Direction {
     /// The sign of the determinant of the matrix of all equations, including a row for the tangent.
-    /// Along a branch it changes where another branch meets this one, not where the branch turns
-    /// back (H. B. Keller, 1977). Can be compared only between points with equal `freedoms`.
+    /// Along a branch, the sign changes where another branch meets this one, but not where the
+    /// branch turns back (H. B. Keller, 1977). Only signs at points with equal `freedoms` can be
+    /// compared.
     int orientation = 1;
     Index freedoms = 0;
 
@@ -38,8 +39,8 @@ struct Tangent : Direction {
 /// Measures lengths of directions. A change of all species by their usual sizes in all cells has
 /// length 1, and so has a change of the parameter by its whole range.
 struct Scales {
-    Vector weights;        ///< The weights of the squares of the unknowns.
-    double parameter = 1;  ///< The weight of the parameter's square.
+    Vector weights;        ///< The weights of the squares of the unknowns in a squared length.
+    double parameter = 1;  ///< The weight of the parameter's square in a squared length.
 
     double product(const Direction& a, const Direction& b) const {
         return (a.state.array() * weights.array() * b.state.array()).sum() +
@@ -68,10 +69,10 @@ public:
 
     const Scales& scales() const { return scales_; }
     SteadyProblem& problem() { return problem_; }
-    /// Whether translations and rotations count as freedoms. They do not if the grid itself holds
-    /// patterns in their places.
+    /// Whether translations and rotations count as freedoms. They do not count if the grid itself
+    /// holds patterns in their places.
     void hold_motions(bool hold) { holds_motions_ = hold; }
-    /// The totals that no rate changes. Each place on the branch keeps them.
+    /// Sets the totals that no rate changes. They are the same at each place on the branch.
     void keep_totals(Matrix totals) { totals_ = std::move(totals); }
 
     Freedoms freedoms_at(const Place& place) const;
@@ -80,14 +81,14 @@ public:
         Place place;
         Linearised at;
         int rounds = 0;
-        /// The largest rate that remains at this place, along the freedoms, as a multiple of
+        /// The largest rate that the freedoms leave at this place, as a multiple of
         /// size_of_rates().
         double drift = 0;
     };
     /// The place near `guess` where all rates are 0, in the plane through `guess` that is
     /// perpendicular to `direction`. Empty if the iteration does not converge.
     std::optional<Solved> solve(const Place& guess, const Direction& direction);
-    /// The tangent of the branch at a solved place. It has length 1 and goes to the same side as
+    /// The tangent of the branch at a solved place. It has length 1 and points to the same side as
     /// `direction`. Empty if it cannot be computed.
     std::optional<Tangent> tangent(const Solved& at, const Direction& direction) const;
     /// The neutral modes at a solved place, which do not count for stability.

@@ -7,7 +7,7 @@ namespace cascade::continuation {
 
 namespace {
 
-/// The kinds of matrices, for keys.
+/// The kinds of matrices, as parts of keys.
 enum Kind : int { cells, neighbour, faces, tangents, fluxes, links };
 
 int number_of(const Boundaries& beyond) {
@@ -23,7 +23,8 @@ SparseRows Differences::made(const Entries& entries) const {
     return matrix;
 }
 
-/// Collects the entries of a difference. A neighbour outside of the mask is replaced as in kernels.
+/// Collects the entries of a difference. Neighbours outside of the mask are replaced as kernels
+/// replace them.
 struct Differences::Taking {
     const PaddedGrid& grid;
     Entries inside = {}, once = {}, twice = {};
@@ -112,7 +113,8 @@ const Reads& Differences::at_faces(Difference difference, int axis) {
         const bool is_inside = grid_.is_inside(row);
         if (!is_inside && !grid_.is_inside(row + grid_.shift(step))) continue;
         for (const Tap& tap : taps.taps) {
-            // Offsets count from a cell of the face that belongs to the domain.
+            // Offsets are relative to this cell of the face, or to the other one if only the other
+            // is in the domain.
             if (is_inside) taking.add(row, row, tap.at, factor * tap.weight);
             else taking.add(row, row + grid_.shift(step), tap.at + back, factor * tap.weight);
         }

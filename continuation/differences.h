@@ -9,12 +9,12 @@
 
 namespace cascade::continuation {
 
-/// A difference. At the border of a mask, neighbours outside are replaced by values beyond the
-/// border (lang/lower/lower_mask.cpp).
+/// The cells that a difference reads, with their weights. At the border of a mask, neighbours
+/// outside are replaced by values beyond the border (lang/lower/lower_mask.cpp).
 struct Reads {
-    SparseRows all;  ///< For values that are mirrored at the border.
-    /// The parts of `all` that read values of cells, values beyond the border, and values beyond
-    /// two borders. Without rows if no position is outside of the domain.
+    SparseRows all;  ///< All reads, for values that are mirrored at the border.
+    /// The reads of cells, of values beyond the border, and of values beyond two borders. No rows
+    /// if no position is outside of the domain.
     SparseRows inside, once, twice;
 };
 
@@ -28,28 +28,28 @@ public:
     /// A difference in the cells of the grid. Its results in the halo are copied from cells as
     /// `beyond` says.
     const Reads& in_cells(Difference difference, int first, int second, const Boundaries& beyond);
-    /// The value in the cell at an offset.
+    /// The value of the cell at an offset.
     const Reads& beside(Offset offset, const Boundaries& beyond);
 
     /// Values at the faces along an axis. The row of a cell is for the face after this cell, so the
-    /// faces before the first cells have the rows of halo cells. `difference` is `average` or
+    /// faces before the first cells are in the rows of halo cells. `difference` is `average` or
     /// `across`.
     const Reads& at_faces(Difference difference, int axis);
-    /// At each face: the central difference along another axis, averaged over both cells of the
+    /// The central difference along another axis at each face, averaged over both cells of the
     /// face.
     const Reads& along_faces(int axis, int component);
     /// The difference of the values at both faces of a cell, divided by the spacing.
     const SparseRows& between_faces(int axis, const Boundaries& beyond);
-    /// For each cell: 1 if the face after it, along the axis of `side`, lies on this side of the
-    /// grid; otherwise 0.
+    /// For each cell, 1 if the face after it, along the axis of `side`, lies on this side of the
+    /// grid, otherwise 0.
     Values on_side(int side) const;
-    /// For each cell: 1 if the face after it along `axis` lies between two cells of the domain;
+    /// For each cell, 1 if the face after it along `axis` lies between two cells of the domain,
     /// otherwise 0.
     Values within_border(int axis) const;
     /// Σ w (f_j − f_i) over the links of each cell.
     const SparseRows& over_links();
-    /// Σ g (f_j − f_i) over the links of each cell, where g are the weights of a gradient's
-    /// component.
+    /// Σ g (f_j − f_i) over the links of each cell, where g are the weights of a component of the
+    /// gradient.
     const SparseRows& gradient_over_links(int component);
 
 private:

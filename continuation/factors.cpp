@@ -19,7 +19,7 @@ struct Factors::Implementation {
 };
 
 Factors::Factors(const SparseColumns& matrix) : self_(std::make_unique<Implementation>()) {
-    // Borders are dense, so pivots near the diagonal keep the factors sparse.
+    // Borders are dense, so pivots near the diagonal are preferred, which keeps the factors sparse.
     self_->lu.setPivotThreshold(0.1);
     self_->lu.compute(matrix);
 }

@@ -22,7 +22,7 @@ bool is_known_operator(const Node& node) {
            difference_of(node.function) || FieldExpressions::rule_of(node.function) != nullptr;
 }
 
-/// Whether a call's values are read only once, before anything changes.
+/// Whether the values of a call are read only once, before any item changes.
 bool is_constant_call(const Node& node) {
     const FunctionKind kind = info(node.function).kind;
     return kind == FunctionKind::shape || kind == FunctionKind::text;
@@ -70,7 +70,7 @@ Result<void> FieldExpressions::prepare(std::span<const ItemId> changing,
             return is_draw(node) ? failure("random numbers in its rates leave no state steady")
                                  : failure("its rates depend on time, so that no state is steady");
         }
-        // Nodes that are not needed keep their numbers, but not their content.
+        // Nodes that are not needed keep their ids, but lose their content.
         const NodeId copy = algebra_.add(needed[id] ? node : Node{.kind = TextId(id.index())});
         CHECK(copy == id, "the nodes of a graph differ");
     }

@@ -1,6 +1,6 @@
 // Computes expressions of a stage in all cells at once, with exact derivatives.
 //
-// The expressions are those from which kernels are lowered, after all graph passes. Numbers are
+// They are the expressions from which kernels are lowered, after all graph passes. Numbers are
 // computed in double precision. Each function of numbers passes derivatives on by the rules of
 // calculus, and each operator by the sparse matrix of its differences.
 #pragma once
@@ -27,14 +27,14 @@ namespace cascade::continuation {
 /// single one if all are equal.
 using ConstantValues = std::function<std::vector<double>(const Formula& formula)>;
 
-/// The parts of the items that change: the species and the parameter. The values of a species
-/// include the halo.
+/// The parts of the items that change, which are the species and the parameter. The values of a
+/// species include the halo.
 using ItemParts = std::map<ItemId, Part>;
 
 class FieldExpressions {
 public:
     /// `changing` are the items that change. If an expression cannot be computed here, fails with
-    /// the reason, as the rest of a sentence that begins with the stage.
+    /// the reason, worded to continue a sentence that begins with the stage.
     static Result<FieldExpressions> create(lowering::Expressions expressions,
                                            const lowering::PassContext& context,
                                            const PaddedGrid& grid, std::span<const ItemId> changing,
@@ -94,10 +94,10 @@ private:
     std::shared_ptr<Differences> differences_;
     IdVector<NodeId, lowering::Crossing> crossings_;
     Algebra algebra_;            ///< The nodes of the plan, then their derivatives.
-    std::vector<NodeId> order_;  ///< The nodes that change, in an order in which to compute them.
+    std::vector<NodeId> order_;  ///< The nodes whose values change, operands first.
     IdVector<NodeId, bool> changes_;
     bool has_places_ = false;
-    /// For each function of numbers: its derivatives with respect to its operands.
+    /// The derivatives of each function of numbers with respect to its operands.
     IdVector<NodeId, std::array<std::optional<NodeId>, most_operands>> slope_nodes_;
     IdVector<NodeId, Part> parts_;
 };

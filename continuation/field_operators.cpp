@@ -24,8 +24,8 @@ Part FieldExpressions::difference(NodeId operand, Difference kind, int first, in
     return read(differences_->in_cells(kind, first, second, beyond), operand);
 }
 
-/// A difference of an operand. Other nodes may give the operand's values beyond the border of a
-/// mask.
+/// Applies a difference to an operand. The operand's values beyond the border of a mask may come
+/// from other nodes.
 Part FieldExpressions::read(const Reads& reads, NodeId operand) const {
     const Node& node = algebra_[operand];
     if (!node.calls(Function::bordered)) return applied(reads.all, parts_[operand]);
@@ -38,8 +38,8 @@ Part FieldExpressions::read(const Reads& reads, NodeId operand) const {
                    applied(reads.twice, all(node.operands[2]))));
 }
 
-/// The same rules as in lang/lower/lower_operators.cpp, but with expanded sums of products over
-/// links: Σ w (a_i + a_j) (e_j − e_i) = a L(e) + L(a e) − e L(a), where L is the Laplacian.
+/// Applies the rules of lang/lower/lower_operators.cpp, but expands sums of products over links: Σ
+/// w (a_i + a_j) (e_j − e_i) = a L(e) + L(a e) − e L(a), where L is the Laplacian.
 Part FieldExpressions::over_links(const Node& node) {
     const Part& of = parts_[node.reads().back()];
     if (of.is_uniform()) return {};
@@ -132,7 +132,8 @@ Part FieldExpressions::upwind(const Node& node, const Boundaries& beyond) {
                 beyond);
 }
 
-/// v · (v > 0 ? c − W : E − c) / h.
+/// Computes v · (v > 0 ? c − W : E − c) / h, where c is the value of a cell, and W and E are the
+/// values of the cells before and after it.
 Part FieldExpressions::flow(NodeId velocity, NodeId operand, int axis, const Boundaries& beyond) {
     const Part& v = parts_[velocity];
     const Values is_forwards = (v.values > 0).cast<double>();
@@ -200,7 +201,7 @@ struct FieldExpressions::AtFace {
     Part quotient(NodeId vector, NodeId by) const {
         const Part divisor = average(by);
         if (divisor.is_uniform()) return continuation::quotient(flow(vector), divisor);
-        // Rows that belong to no face are 0. There, the divisor becomes 1.
+        // Rows that belong to no face are 0. There, the divisor is set to 1.
         const Values nowhere = (divisor.values == 0).cast<double>();
         return continuation::quotient(flow(vector), continuation::sum(divisor, Part{nowhere, {}}));
     }

@@ -12,7 +12,8 @@ namespace cascade::continuation {
 namespace {
 
 constexpr double shortest_step = 1e-7;
-constexpr double least_cosine = 0.96;  ///< Between the tangents at both ends of a step.
+/// The least cosine of the angle between the tangents at both ends of a step.
+constexpr double least_cosine = 0.96;
 constexpr int few_rounds = 4, many_rounds = 7;
 constexpr int kept_eigenvalues = 16;
 
@@ -44,7 +45,7 @@ void Follower::find_stability(Point& point, const Corrector::Solved& solved) con
     }
     std::vector<Complex> places{growth};
     if (turning.imag() > 0) places.emplace_back(0, turning.imag());
-    // Eigenvalues that have moved away from 0 are near eigenvalues of the point before.
+    // Eigenvalues that have moved far from 0 are near eigenvalues of the previous point.
     places.insert(places.end(), growing_before_.begin(), growing_before_.end());
     const auto modes = leading_modes(solved.at.jacobian, neutral, places, kept_eigenvalues, false,
                                      settings_.cancel);
@@ -69,8 +70,8 @@ Point Follower::point_at(const Corrector::Solved& solved, Tangent tangent) const
     return point;
 }
 
-/// The point of the branch at the distance `step` from another point, along the tangent of that
-/// one. Empty if there is none, or after a cancellation.
+/// The point of the branch at the distance `step` from the point `from`, along the tangent of
+/// `from`. Empty if there is none, or after a cancellation.
 std::optional<Point> Follower::try_point(const Point& from, double step, int& rounds) const {
     if (is_cancelled()) return std::nullopt;
     const Place guess{from.place.state + step * from.tangent.state,
@@ -89,8 +90,8 @@ std::optional<Point> Follower::try_point(const Point& from, double step, int& ro
 std::optional<Point> Follower::end_at(const Point& inside, const Point& outside) const {
     const double end = outside.place.parameter > settings_.high ? settings_.high : settings_.low;
     const double span = outside.place.parameter - inside.place.parameter;
-    // If branches meet exactly at the end of the range, no point can be computed there, but very
-    // near it.
+    // If branches meet exactly at the end of the range, a point can be computed only very near the
+    // end.
     for (const double less : {0.0, 1e-7}) {
         const double at = end - less * (end - inside.place.parameter);
         const double share = (at - inside.place.parameter) / span;
@@ -104,7 +105,8 @@ std::optional<Point> Follower::end_at(const Point& inside, const Point& outside)
     return std::nullopt;
 }
 
-/// Adds points after the last one, in the direction of its tangent. Returns why the branch ends.
+/// Adds points after the last one, in the direction of its tangent. Returns the reason why the
+/// branch ends.
 std::string Follower::go(std::vector<Point>& points, std::size_t number) {
     const Place begin = points.back().place;
     double step = std::min(settings_.step, 0.01), farthest = 0;

@@ -2,8 +2,8 @@
 //
 // A neutral mode x with its left vector y is moved out of sight by adding a multiple of x yᵀ to the
 // matrix (H. Wielandt, 1944), which changes no other eigenvalue. Instead of the sum, which is
-// dense, a sparse matrix with one more row and column is factorised. The warning is off, because
-// g++ 12 takes memory of Eigen's elimination for used after its end.
+// dense, a sparse matrix with one more row and column is factorised. A warning is off, because g++
+// 12 takes memory of Eigen's elimination for used after its end.
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wuse-after-free"
 #endif
@@ -25,8 +25,9 @@ namespace cascade::continuation {
 namespace {
 
 constexpr Index most_dense_symmetric = 320;
-constexpr Index most_dense = 120;          ///< Smaller matrices are decomposed completely.
-constexpr Index most_dense_rescue = 1500;  ///< Like most_dense, if the search does not converge.
+constexpr Index most_dense = 120;  ///< Smaller matrices are decomposed completely.
+/// Smaller matrices are decomposed completely if the search does not converge.
+constexpr Index most_dense_rescue = 1500;
 
 /// The largest sum of magnitudes in a row.
 double size_of(const SparseColumns& matrix) {
@@ -39,7 +40,7 @@ double size_of(const SparseColumns& matrix) {
     return sums.size() > 0 ? sums.maxCoeff() : 0;
 }
 
-/// Thrown out of a search that is cancelled.
+/// Thrown to leave a search that is cancelled.
 struct SearchEnded {};
 
 /// The inverse of the matrix minus a shift. The matrix is bordered with the neutral modes.
@@ -88,7 +89,7 @@ public:
         Eigen::Map<Vector>(out, size) = aside(solved.head(size).real());
     }
 
-    /// From now on leaves out this eigenvector and its conjugate, so that others are found.
+    /// Leaves out this eigenvector and its conjugate from now on, so that others are found.
     void lock(const ComplexVector& vector) {
         for (const Vector& part : {Vector(vector.real()), Vector(vector.imag())}) {
             const double length = part.norm();
@@ -135,7 +136,7 @@ std::vector<Mode> all_modes(const SparseColumns& matrix, std::span<const Neutral
         modes.push_back({solver.eigenvalues()[k], {}});
         if (with_vectors) modes.back().vector = solver.eigenvectors().col(k);
     }
-    // The neutral modes now have the smallest real parts.
+    // The eigenvalues of the neutral modes have been moved to the smallest real parts.
     std::ranges::sort(modes, std::greater(), [](const Mode& mode) { return mode.value.real(); });
     modes.resize(modes.size() - std::min(modes.size(), neutral.size()));
     return modes;
@@ -174,9 +175,9 @@ Vector start_of(Index size, int pass) {
 }
 
 /// The modes nearest to a shift. An iteration from one vector finds only one eigenvector of an
-/// eigenvalue that occurs several times. So it is repeated without the vectors that were found,
-/// until it finds no mode that is nearer to the shift than the farthest mode of the first pass.
-/// Empty if it does not converge.
+/// eigenvalue that occurs several times. So the iteration is repeated without the vectors that were
+/// found, until it finds no mode that is nearer to the shift than the farthest mode of the first
+/// pass. Empty if an iteration does not converge.
 template <typename Solver, typename Inverse, typename... Shift>
 std::optional<std::vector<Mode>> found_near(Inverse& inverse, Complex place, Index count,
                                             Shift... shift) {
@@ -204,7 +205,7 @@ std::optional<std::vector<Mode>> found_near(Inverse& inverse, Complex place, Ind
             if (pass > 0 && distance(values[k]) > radius * (1 - 1e-6)) continue;
             all.push_back({values[k], vectors.col(k)});
             inverse.lock(all.back().vector);
-            // The last mode may be one of a conjugate pair, without the other.
+            // The last mode may be half of a conjugate pair whose other half is missing.
             const bool is_half = values[k].imag() != 0 && k + 1 == values.size() &&
                                  (k == 0 || values[k - 1] != std::conj(values[k]));
             if (is_half) all.push_back({std::conj(values[k]), vectors.col(k).conjugate()});

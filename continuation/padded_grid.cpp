@@ -1,4 +1,4 @@
-// Numbers cells, and finds what each halo cell depends on.
+// Numbers the cells, and finds the cells on which each halo cell depends.
 #include "continuation/padded_grid.h"
 
 #include <algorithm>
@@ -68,7 +68,7 @@ void PaddedGrid::find_halo() {
         for (Index cell = 0; cell < size_; ++cell) {
             const std::int64_t at = position(cell, axis);
             if (at >= 0 && at < length(axis)) continue;
-            // A cell that is also beyond a side of a later axis is listed with that axis.
+            // A halo cell that is also beyond a side of a later axis is listed with that axis.
             bool is_later = false;
             Index beside = cell;
             for (int other = 0; other < 3; ++other) {

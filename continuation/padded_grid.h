@@ -1,8 +1,8 @@
 // A grid with a halo of one cell on both sides of every axis that has several cells.
 //
-// Values of expressions are stored for all cells of the padded grid. A value beyond a side then is
-// a number like any other, and derivatives pass through the rules of sides by themselves. The cells
-// of a model have links in place of axes, and no halo.
+// Values of expressions are stored for all cells of the padded grid. So a value beyond a side is a
+// number like any other, and the rules of sides need no special derivatives. The cells of a model
+// have links in place of axes, and no halo.
 #pragma once
 
 #include "continuation/domain_cells.h"
@@ -22,7 +22,7 @@ public:
 
     const GridAxes& axes() const { return axes_; }
     double spacing() const { return spacing_; }
-    /// The number of cells of the padded grid, and of the grid.
+    /// The numbers of cells of the padded grid and of the domain.
     Index size() const { return size_; }
     Index cell_count() const { return static_cast<Index>(cells_.size()); }
     /// The numbers of all positions of the grid in the padded grid. x varies fastest, z slowest.
@@ -42,8 +42,8 @@ public:
     Index shift(Offset offset) const;
     /// The position of a cell of the padded grid along an axis: −1 or `length` in the halo.
     std::int64_t position(Index padded, int axis) const;
-    /// A cell of the halo. In halo(), it comes after its cell `inner`, which lies next to it along
-    /// the last axis on which it is beyond a side.
+    /// A cell of the halo. Its neighbour `inner` lies next to it along the last axis on which the
+    /// halo cell is beyond a side. In halo(), each cell comes after its `inner`.
     struct HaloCell {
         Index cell = 0, inner = 0;  ///< `inner` is the next cell inwards.
         Index opposite = 0;         ///< The cell at the other end of the axis.

@@ -9,7 +9,7 @@ namespace cascade::continuation {
 /// once.
 struct Part {
     Values values = Values::Zero(1);
-    /// A row for each value, and a column for each unknown and for the parameter. Without rows if
+    /// One row for each value, and one column for each unknown and for the parameter. No rows if
     /// the expression depends on none of them.
     SparseRows slopes;
 
@@ -17,11 +17,11 @@ struct Part {
     bool is_uniform() const { return values.size() == 1; }
 };
 
-/// The values repeated in `size` cells, unless there are as many already.
+/// Repeats a single value in `size` cells. Returns several values unchanged.
 Values spread(const Values& values, Index size);
-/// The rows multiplied by factors. There may be a single factor or a single row for all cells.
+/// Multiplies rows by factors. A single factor or a single row applies to all cells.
 SparseRows scaled(const Values& factors, const SparseRows& rows);
-/// Adds rows to a sum that may be empty. Either may be one row for all cells.
+/// Adds rows to a sum, which may be empty. In both, a single row stands for all cells.
 void add_rows(SparseRows& sum, SparseRows rows);
 
 Part sum(const Part& a, const Part& b);

@@ -12,13 +12,16 @@ namespace cascade::continuation {
 namespace {
 
 constexpr int most_halvings = 40;
-constexpr double beside_singular = 1e-7;  ///< The least distance from a singular point, in steps.
-constexpr double narrow = 1e-7;           ///< The length of an interval around a point, in steps.
+/// The least distance from a singular point, as a fraction of a step.
+constexpr double beside_singular = 1e-7;
+/// The length of an interval that counts as a point, as a fraction of a step.
+constexpr double narrow = 1e-7;
 
 }  // namespace
 
-/// The point between two points where a test changes its sign, at a distance of at least `low` from
-/// the first one. Uses the regula falsi, but halves the value at an end that stays (Illinois).
+/// Finds the point between two points where a test changes its sign, at a distance of at least
+/// `low` from the first one. Uses the regula falsi, but halves the test's value at an end that
+/// stays (Illinois algorithm).
 std::optional<Follower::Event> Follower::find(
     const Point& from, const Point& to, double step, double low,
     const std::function<double(const Point&)>& test) const {
@@ -35,8 +38,8 @@ std::optional<Follower::Event> Follower::find(
                             high - std::min(margin, narrow * step));
         int rounds = 0;
         auto point = try_point(from, middle, rounds);
-        // Where branches meet, the equations are singular and cannot be solved. Very near, they
-        // can.
+        // Where branches meet, the equations are singular and cannot be solved. They can be solved
+        // very near that point.
         const bool is_singular = !point;
         for (double beside = beside_singular; !point && beside < 2e-3; beside *= 10) {
             point = try_point(from, middle + beside * step, rounds);
@@ -61,7 +64,7 @@ std::optional<Follower::Event> Follower::find(
     return best;
 }
 
-/// The points where eigenvalues pass the imaginary axis, in the order in which they do.
+/// The points where eigenvalues pass the imaginary axis, in their order along the branch.
 std::vector<Follower::Event> Follower::crossings(const Point& from, const Point& to,
                                                  double step) const {
     std::vector<Event> found;
@@ -69,7 +72,7 @@ std::vector<Follower::Event> Follower::crossings(const Point& from, const Point&
     const int change = *to.growing - *from.growing;
     const int sign = change > 0 ? 1 : -1;
     for (int passed = 0; passed < std::abs(change);) {
-        // The eigenvalues are sorted, so this is the index of the next one that passes.
+        // The eigenvalues are sorted, so this is the index of the next eigenvalue that passes.
         const auto number = static_cast<std::size_t>(sign > 0 ? *from.growing + passed
                                                               : *from.growing - 1 - passed);
         const auto test = [&](const Point& point) {
@@ -109,7 +112,7 @@ double Follower::unevenness(const Vector& state) const {
     return std::sqrt(sum);
 }
 
-/// Whether the state at `at` is the same in all cells, although a state of the branch before or
+/// Whether the state at `at` is the same in all cells, although the state of the branch before or
 /// after it is not.
 bool Follower::vanishes_between(const Point& at, const Point& from, const Point& to) const {
     const double beside = std::max(unevenness(from.place.state), unevenness(to.place.state));
@@ -160,10 +163,10 @@ bool Follower::is_known(const Point& point) const {
     });
 }
 
-/// The directions of the branches that begin at a branch point, without its own tangent: changes of
-/// the state that change no rate. If there are several, takes those that are symmetric about the
-/// first cell: stripes across each axis, and spots. If the branch itself goes in such a direction,
-/// the other branch is found by changing the parameter alone.
+/// The directions of the branches that begin at a branch point, without the tangent of this branch:
+/// changes of the state that change no rate. If there are several, takes the directions that are
+/// symmetric about the first cell: stripes across each axis, and spots. If the branch itself goes
+/// in such a direction, the other branch is found by changing the parameter alone.
 std::vector<Direction> Follower::ways_from(const Point& point) const {
     const auto solved = corrector_.solve(point.place, point.tangent);
     if (!solved) return {};

@@ -1,4 +1,4 @@
-// The directions in which states can be moved, and simple shapes of states.
+// The directions in which states can be moved, and simple symmetric changes of states.
 #include "continuation/steady_problem.h"
 
 #include <algorithm>

@@ -19,7 +19,7 @@ namespace {
 
 constexpr const char* no_steady_state = "so that no state is steady";
 
-/// The parameters that depend on `varied`. Each comes after those that it reads.
+/// The parameters that depend on `varied`. Each parameter comes after the parameters that it reads.
 Result<std::vector<ItemId>> followers_of(const Program& program, std::uint32_t stage,
                                          ItemId varied) {
     const System& system = program.system_of(stage);

@@ -20,12 +20,13 @@ namespace cascade::continuation {
 /// The rates at a state, and their derivatives.
 struct Linearised {
     Vector rates;
-    SparseColumns jacobian;  ///< By the unknowns.
+    SparseColumns jacobian;  ///< The derivatives by the unknowns.
     Vector by_parameter;
 };
 
 /// Checks, before anything is run, whether a stage can have steady states that continuation/ can
-/// compute. If not, fails with the reason, as the rest of a sentence that begins with the stage.
+/// compute. If not, fails with the reason, worded to continue a sentence that begins with the
+/// stage.
 Result<void> check_steady(const Program& program, std::uint32_t stage);
 
 class SteadyProblem {
@@ -47,9 +48,9 @@ public:
     Vector rates(const Vector& state, double parameter);
     Linearised linearised(const Vector& state, double parameter);
 
-    /// The totals that no rate changes, one in each column: weights of the unknowns. They are
-    /// totals of species and of sums of species, in which cells count by their areas. Takes the
-    /// slopes of the rates at a state near the given one, where none is 0 by accident.
+    /// The totals that no rate changes, one in each column, as weights of the unknowns. They are
+    /// totals of species and of sums of species, in which cells count by their areas. The slopes of
+    /// the rates are taken at a state near the given one, where no slope is 0 by accident.
     Matrix conserved_near(const Vector& state, double parameter);
     /// The derivatives of a state along the motions that give other steady states. On a model these
     /// are the rotations of a sphere or torus. On a grid they are translations along the axes that
@@ -69,9 +70,9 @@ private:
     /// A species with its values beyond sides.
     struct Species {
         ItemId item;
-        SparseRows inside;  ///< From the unknowns to the padded grid.
-        /// For each side with a value: the number of the root in `sides_`, and its effect on the
-        /// halo.
+        SparseRows inside;  ///< Maps the unknowns to values in the padded grid.
+        /// For each side with a value, the number of its root in `sides_`, and the effect of the
+        /// value on the halo.
         std::vector<std::pair<std::size_t, SparseRows>> by_side;
     };
     void prepare_sides(lowering::Expressions& sides, const Program& program, std::uint32_t stage,
@@ -89,7 +90,7 @@ private:
     std::array<bool, 3> is_periodic_{true, true, true};
     Vector areas_;
     std::vector<int> free_axes_;     ///< The axes along which states can be moved.
-    std::vector<SparseRows> turns_;  ///< For each rotation: the derivative of a state along it.
+    std::vector<SparseRows> turns_;  ///< For each rotation, the derivative of a state along it.
     Vector turned(const SparseRows& turn, const Vector& state) const;
     Vector shifted(int axis, const Vector& state) const;
     void find_turns(const DomainCells& cells);

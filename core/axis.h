@@ -18,7 +18,7 @@ inline constexpr std::array<std::string_view, 3> axis_names{"x", "y", "z"};
 /// The name "x", "y" or "z".
 constexpr std::string_view name_of(Axis axis) { return axis_names[static_cast<std::size_t>(axis)]; }
 
-/// The axis of that name, if there is one.
+/// The axis called `name`; nullopt for other names.
 constexpr std::optional<Axis> axis_of_name(std::string_view name) {
     for (std::size_t k = 0; k < axis_names.size(); ++k) {
         if (axis_names[k] == name) return static_cast<Axis>(k);
@@ -35,12 +35,12 @@ struct Heading {
 
 inline constexpr std::array<std::string_view, 6> heading_names{"x", "y", "z", "-x", "-y", "-z"};
 
-/// The name "x" … "-z".
+/// The name: "x", "y", "z", "-x", "-y" or "-z".
 constexpr std::string_view name_of(Heading heading) {
     return heading_names[static_cast<std::size_t>(heading.axis) + (heading.is_backwards ? 3 : 0)];
 }
 
-/// The direction of that name, if there is one.
+/// The direction called `name`; nullopt for other names.
 constexpr std::optional<Heading> heading_of_name(std::string_view name) {
     for (std::size_t k = 0; k < heading_names.size(); ++k) {
         if (heading_names[k] == name) return Heading{static_cast<Axis>(k % 3), k >= 3};
@@ -55,15 +55,17 @@ struct Stance {
     bool operator==(const Stance&) const = default;
 };
 
-/// The usual facing direction of a model. If z is up, it is −y, as in programs that model with z up
-/// and export glTF, which has y up.
+/// The usual orientation of a model with this up direction. With y up, the model faces z. With z
+/// up, it faces −y, as in programs that model with z up and export glTF, which has y up. With x up,
+/// it faces y.
 constexpr Stance usual_stance(Axis up) {
     return {up, up == Axis::y ? Heading{Axis::z} : Heading{Axis::y, up == Axis::z}};
 }
 
 namespace axis_detail {
 
-/// The direction that becomes x: the cross product of the up and the facing direction.
+/// The direction that turned_upright() takes to x: the cross product of the up and the facing
+/// direction.
 constexpr Heading side_of(const Stance& stance) {
     const auto up = static_cast<unsigned>(stance.up);
     const auto facing = static_cast<unsigned>(stance.facing.axis);

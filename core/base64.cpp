@@ -1,4 +1,4 @@
-// Three bytes become four digits of six bits.
+// Encodes each three bytes as four digits of six bits.
 #include "core/base64.h"
 
 #include <algorithm>

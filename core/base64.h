@@ -10,7 +10,7 @@ namespace cascade {
 /// Base64 by RFC 4648, section 4, with padding.
 std::string base64(std::string_view bytes);
 
-/// The bytes that a Base64 text encodes; nullopt if `text` is not Base64.
+/// Decodes a Base64 text. Returns nullopt if `text` is not Base64.
 std::optional<std::string> from_base64(std::string_view text);
 
 }  // namespace cascade

@@ -9,8 +9,8 @@
 // the bends differ in sign (P. Colella and M. Sekora, "A limiter for PPM that preserves accuracy at
 // smooth extrema", J. Comput. Phys. 227, 2008). If the cells have only two different values, no
 // curve leaves their range. Otherwise a crest between two cells may be higher than both values.
-// This suits pictures. If a run continues from the interpolated values, a value out of range, such
-// as a negative concentration, may be meaningless. slope_in_range() therefore limits slopes
+// Pictures may have such crests. In a run that continues from the interpolated values, a value out
+// of range, such as a negative concentration, may be meaningless, so slope_in_range() limits slopes
 // further. The functions are always inlined, so that compilers vectorise loops that call them.
 #pragma once
 
@@ -56,8 +56,9 @@ template <typename Number>
                           slope_in(v[1], v[2], v[3], v[4], v[5]), part);
 }
 
-/// slope_in(), limited so that the curves on both sides stay in the range of the four cells around
-/// them: a curve lies between its ends and the points on its tangents a third of a cell away.
+/// slope_in(), limited so that the curve on either side stays in the range of the four cells around
+/// it. A curve stays in the range of its Bézier points: its two ends, and the points on the
+/// tangents at its ends a third of a cell away.
 template <typename Number>
 [[gnu::always_inline]] inline Number slope_in_range(Number a, Number b, Number c, Number d,
                                                     Number e) {
@@ -68,8 +69,8 @@ template <typename Number>
 }
 
 /// value_between() with a curve that stays in the range of the middle four cells. The mean of
-/// values at evenly spaced points is the mean of the cells, because slopes on both sides of a cell
-/// are equal.
+/// interpolated values at evenly spaced points equals the mean of the cells, because the curves on
+/// both sides of a cell have the same slope there.
 template <typename Number>
 [[gnu::always_inline]] inline Number value_in_range(const std::array<Number, cells_between>& v,
                                                     Number part) {

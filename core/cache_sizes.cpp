@@ -20,7 +20,7 @@ std::string word_in(const fs::path& path) {
     return word;
 }
 
-/// The bytes of "1024K", "32M" or "1G"; 0 for anything else.
+/// Reads a number of bytes such as "1024K", "32M" or "1G". Returns 0 for other texts.
 std::int64_t bytes_of(const std::string& size) {
     std::istringstream text(size);
     std::int64_t number = 0;

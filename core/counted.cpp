@@ -1,4 +1,4 @@
-// Numbers with nouns, for messages.
+// Formats counts with their nouns for messages.
 #include "core/counted.h"
 
 #include "core/with_commas.h"

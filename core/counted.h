@@ -1,4 +1,4 @@
-// Numbers with nouns, for messages.
+// Counts with their nouns, for messages.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,8 @@
 
 namespace cascade {
 
-/// "1 face was", "1,234 faces were", with the caller's singular and plural.
+/// The count, followed by the caller's words for one thing or for many: "1 face was", "1,234 faces
+/// were".
 std::string counted(std::int64_t count, std::string_view one, std::string_view many);
 /// "1 step", "2 passes": the plural ends in -s, or in -es after an s.
 std::string counted(std::int64_t count, std::string_view noun);

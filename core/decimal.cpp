@@ -1,5 +1,5 @@
-// libc++ before version 20 lacks std::from_chars() for floating-point numbers. There, strtod() of
-// the C library rounds to the nearest number, too.
+// libc++ before version 20 lacks std::from_chars() for floating-point numbers. With such a libc++,
+// numbers are read by strtod() of the C library, which also rounds to the nearest number.
 #include "core/decimal.h"
 
 #include <cerrno>

@@ -5,7 +5,7 @@
 
 namespace cascade {
 
-/// std::from_chars() for a binary64 number: rounds to the nearest one, in any locale.
+/// Reads a number as std::from_chars() does: rounded to the nearest binary64 number, in any locale.
 std::from_chars_result from_decimal(const char* begin, const char* end, double& number);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Interrupted calls are repeated. A write of no bytes counts as a full disk.
+// Repeats system calls that a signal interrupted. Takes a write of 0 bytes for a full disk.
 #include "core/descriptor.h"
 
 #include <cerrno>
@@ -29,7 +29,7 @@ int write_all(const Descriptor& file, std::string_view bytes) {
 
 std::vector<std::string> names_in(const Descriptor& folder) {
     std::vector<std::string> names;
-    // Reading a folder moves its descriptor's position, so this opens a second descriptor.
+    // Reading a folder moves its descriptor's position, so a second descriptor is opened.
     const int again = ::openat(folder.number(), ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (again < 0) return names;
     const std::unique_ptr<DIR, int (*)(DIR*)> entries(::fdopendir(again), &::closedir);

@@ -35,8 +35,8 @@ struct Diagnostic {
 };
 
 /// The diagnostics of one program. A message that repeats at the same location is stored once. At
-/// most `most_kept` of each severity are stored and further ones only counted, because a text that
-/// is not a script causes very many.
+/// most `most_kept` of each severity are stored, because a text that is not a script causes very
+/// many. Further diagnostics are only counted.
 class Diagnostics {
 public:
     static constexpr std::size_t most_kept = 10'000;
@@ -61,8 +61,9 @@ private:
 };
 
 struct RenderStyle {
-    bool colour = false;    ///< ANSI colours, for a terminal.
-    std::size_t most = 50;  ///< The most diagnostics to draw. A last line counts the rest.
+    bool colour = false;  ///< ANSI colours, for a terminal.
+    /// The largest number of diagnostics to draw. A last line gives the number of the others.
+    std::size_t most = 50;
 };
 
 /// Draws one diagnostic:
@@ -76,7 +77,7 @@ struct RenderStyle {
 /// their width.
 std::string render(const Diagnostic& diagnostic, const Sources& sources, const RenderStyle& style);
 
-/// Draws all diagnostics, sorted. Each ends with a line end.
+/// Draws all diagnostics, sorted. Each drawing ends with a line end.
 std::string render(const Diagnostics& diagnostics, const Sources& sources,
                    const RenderStyle& style);
 

@@ -10,7 +10,7 @@
 
 namespace cascade {
 
-/// Reports a lack of memory as allocations do: throws std::bad_alloc or ends the program.
+/// Reports a lack of memory as a failed allocation does: throws std::bad_alloc or ends the program.
 [[noreturn]] inline void lack_memory() {
 #ifdef __cpp_exceptions
     throw std::bad_alloc();
@@ -19,7 +19,7 @@ namespace cascade {
 #endif
 }
 
-/// The Result of `action`, or a failure with this message if memory ran out.
+/// Calls `action` and returns its Result, or a failure with `message` if memory ran out.
 template <typename Action>
 auto enough_memory_for(const Action& action,
                        const std::string& message = "there is not enough memory")

@@ -27,8 +27,8 @@ int open_file(const fs::path& path, int flags, mode_t mode = 0) {
     return number;
 }
 
-/// write_all for a descriptor opened with O_NONBLOCK. A signal that this process handles ends the
-/// wait, so Ctrl-C need not wait for the reader of a pipe.
+/// Does the same as write_all() for a descriptor opened with O_NONBLOCK. A signal that this process
+/// handles ends the wait, so Ctrl-C need not wait for the reader of a pipe.
 int write_all_waiting(const Descriptor& file, std::string_view bytes) {
     while (!bytes.empty()) {
         const ssize_t written = ::write(file.number(), bytes.data(), bytes.size());
@@ -45,7 +45,8 @@ int write_all_waiting(const Descriptor& file, std::string_view bytes) {
     return 0;
 }
 
-/// Writes directly to a pipe or device, because a rename would replace it.
+/// Writes directly to a pipe or device, because a rename would replace the pipe or device by a
+/// file.
 Result<void> write_in_place(const fs::path& path, std::string_view bytes) {
     Descriptor file(open_file(path, O_WRONLY | O_NONBLOCK));
     if (!file.is_open() && errno == ENXIO) {
@@ -59,8 +60,8 @@ Result<void> write_in_place(const fs::path& path, std::string_view bytes) {
     return {};
 }
 
-/// Writes a new file at `target`. `replaced` is the status of the file that it replaces, or null.
-/// Returns 0 or the error number.
+/// Writes a new file at `target`. `replaced` is the status of the file that the new file replaces,
+/// or null. Returns 0 or the error number.
 int replace(const fs::path& target, std::string_view bytes, const struct stat* replaced) {
     const Descriptor folder(open_folder(folder_of(target)));
     if (!folder.is_open()) return errno;
@@ -105,7 +106,8 @@ Result<void> check_writable(const fs::path& path) {
                                    folder_of(target).string()),
                        "make the folder first");
     }
-    // Creates and removes a file, because permissions, read-only disks and quotas all matter.
+    // Creates a file and removes it again, because only this shows whether permissions, read-only
+    // disks and quotas allow the file.
     const Descriptor folder(open_folder(folder_of(target)));
     if (!folder.is_open()) return cannot("write", path.string(), errno);
     const TemporaryFile temporary(folder, 0600);

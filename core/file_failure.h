@@ -12,7 +12,8 @@
 
 namespace cascade {
 
-/// "cannot read 'NAME': No such file or directory", for an error number.
+/// A failure with the system's words for an error number: "cannot read 'NAME': No such file or
+/// directory".
 inline tl::unexpected<Failure> cannot(std::string_view verb, std::string_view name, int error) {
     std::string hint;
     if (error == ENOSPC || error == EDQUOT) hint = "free some space and run it again";

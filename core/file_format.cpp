@@ -1,4 +1,5 @@
-// Two-part endings, such as ".cells.vtp", are tried before their last part alone.
+// Looks for a format whose ending is the last two parts of a file's name, such as ".cells.vtp",
+// before one whose ending is the last part alone.
 #include "core/file_format.h"
 
 #include <vector>

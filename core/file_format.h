@@ -16,7 +16,8 @@ enum class FileFormat : std::uint8_t {
 #include "core/file_formats.def"
 };
 
-/// The content of files of a format. `run -o` writes the kinds from the first one up to `cells`.
+/// The content of files of a format. `run -o` writes the kinds from `picture` to `cells`, both
+/// included.
 enum class FormatKind : std::uint8_t {
     picture,
     figure,
@@ -31,15 +32,15 @@ enum class FormatKind : std::uint8_t {
 enum class FormatTrait : std::uint16_t {
     none = 0,
     drawing = 1 << 0,       ///< Can hold a diagram.
-    transparency = 1 << 1,  ///< Films may be transparent.
-    colours = 1 << 2,       ///< Points of models have colours.
+    transparency = 1 << 1,  ///< Can hold transparent films.
+    colours = 1 << 2,       ///< Can hold colours of a model's points.
     numbers = 1 << 3,
-    texture = 1 << 4,  ///< Points of models have texture coordinates.
-    copies = 1 << 5,   ///< Holds copies of shapes placed on a model.
-    maps = 1 << 6,     ///< Has textures.
-    growth = 1 << 7,   ///< Holds the changes of a model over time.
-    levels = 1 << 8,   ///< All levels of detail of a model in one file.
-    planes = 1 << 9,   ///< Volumes may be written as planes, too.
+    texture = 1 << 4,  ///< Can hold texture coordinates of a model's points.
+    copies = 1 << 5,   ///< Can hold copies of shapes placed on a model.
+    maps = 1 << 6,     ///< Can hold textures.
+    growth = 1 << 7,   ///< Can hold the changes of a model over time.
+    levels = 1 << 8,   ///< Can hold all levels of detail of a model in one file.
+    planes = 1 << 9,   ///< Can hold a grid of a single slice, too.
 };
 
 constexpr FormatTrait operator|(FormatTrait a, FormatTrait b) {
@@ -84,7 +85,7 @@ std::optional<FormatKind> output_kind(const std::filesystem::path& path);
 /// ".svg or .pdf" with the joint "or", ".svg, .pdf" without a joint.
 std::string endings_of(FormatKind kind, std::string_view joint = "");
 std::string endings_of(FormatTrait trait, std::string_view joint = "");
-/// The option that writes these formats, for hints: "-o NAME.svg or .pdf".
+/// The option that writes the formats of a kind or with a trait, for hints: "-o NAME.svg or .pdf".
 template <typename Which>
 std::string output_of(Which which) {
     return "-o NAME" + endings_of(which, "or");

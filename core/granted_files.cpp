@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The path with symbolic links resolved, as far as it exists.
+/// The path with the symbolic links in its existing part resolved.
 fs::path real_path(const fs::path& path, std::error_code& error) {
     const fs::path absolute = fs::absolute(path, error);
     return error ? fs::path() : fs::weakly_canonical(absolute, error);
@@ -34,7 +34,7 @@ std::optional<fs::path> way_down(const fs::path& folder, const fs::path& file) {
     return way;
 }
 
-/// Whether a relative name, as written, stays inside its folder.
+/// Whether a relative name stays inside its folder if symbolic links are ignored.
 bool stays_inside(const std::string& name) {
     const fs::path path = fs::path(name).lexically_normal();
     return path.is_relative() && *path.begin() != "..";

@@ -36,7 +36,7 @@ public:
     /// folder.
     GrantedFiles beside(const std::string& file) const;
 
-    /// The content of a regular file. A relative name is searched in the folder, then in each
+    /// The content of a regular file. A relative name is looked up in the folder, then in each
     /// folder of `--allow-read`, by the whole name and by its last part. Symbolic links are
     /// followed. A file outside all granted folders is refused with the same message whether it
     /// exists or not. Also fails for folders, pipes, devices, unreadable files, and files of more
@@ -48,8 +48,9 @@ private:
     Result<std::string> read_at(const std::filesystem::path& path, const std::string& name,
                                 std::uint64_t largest, bool& is_missing) const;
 
-    std::filesystem::path base_;                ///< Names are relative to this folder.
-    std::vector<std::filesystem::path> roots_;  ///< The owner's folder comes first.
+    std::filesystem::path base_;  ///< Names are relative to this folder.
+    /// The granted folders. The owner's folder comes first.
+    std::vector<std::filesystem::path> roots_;
     bool everything_ = false;
     std::string owner_;
 };

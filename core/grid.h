@@ -8,7 +8,8 @@
 
 namespace cascade {
 
-/// The rule for the neighbour beyond a side of the grid. A species may override this boundary.
+/// The neighbour that a cell at a side of the grid has beyond this side. A species may have its own
+/// rule.
 enum class Boundary {
     periodic,  ///< The cell at the opposite side.
     no_flux,   ///< The cell itself: nothing flows through the side.
@@ -29,14 +30,14 @@ struct Boundaries {
     friend bool operator==(const Boundaries&, const Boundaries&) = default;
 };
 
-/// The set of neighbours of a cell. An axis of one cell has none, so a grid of W × 1 or 1 × H cells
-/// is one-dimensional. A Laplacian is summed as ((((N + S) + E) + W) + U) + D − 2·axes·c, without
-/// the missing pairs.
+/// The set of neighbours of a cell. Along an axis of one cell there are no neighbours, so a grid of
+/// W × 1 or 1 × H cells is one-dimensional. A Laplacian is summed as ((((N + S) + E) + W) + U) + D
+/// − 2·axes·c, without the missing pairs.
 struct Stencil {
     bool x = true;   ///< W and E, the columns before and after.
     bool y = true;   ///< N and S, the rows above and below.
     bool z = false;  ///< U and D, the slices before and after.
-    /// Whether a list of links gives the neighbours instead of the axes (core/links.h).
+    /// Whether a list of links (core/links.h) gives the neighbours. The axes give none then.
     bool links = false;
 
     static const Stencil row, column, plane, volume, linked;
@@ -109,7 +110,8 @@ struct PlaneLayout {
     std::int64_t stride = 0;
     /// Number of elements from a slice to the next; a multiple of `stride`.
     std::int64_t slice_stride = 0;
-    /// If the plane holds a part of the grid: the number of the grid's elements before the part.
+    /// The number of the grid's elements before the part that the plane holds. 0 if the plane holds
+    /// the whole grid.
     std::int64_t elements_before = 0;
 
     PlaneLayout() = default;

@@ -29,7 +29,7 @@ private:
     std::uint32_t index_ = 0;
 };
 
-/// The ids from 0 up to a number.
+/// The ids with the numbers 0 … count − 1.
 template <typename Key>
 auto ids_below(std::size_t count) {
     return std::views::iota(std::size_t{0}, count) |

@@ -68,8 +68,8 @@ std::string read_own_file(const Descriptor& folder, const std::string& name) {
         if (got <= 0) return {};
         used += static_cast<std::size_t>(got);
     }
-    // The modification time tells when a file was last used, to within a day, because the files
-    // unused for longest are removed first.
+    // Because the files unused for longest are removed first, the modification time records when a
+    // file was last used, to within a day.
     constexpr long day = 24 * 60 * 60;
     if (status.st_mtime + day < ::time(nullptr)) ::futimens(file.number(), nullptr);
     return bytes;
@@ -106,8 +106,8 @@ std::optional<std::string> content_of(std::string_view file, std::string_view ma
     return std::string(file.substr(sizeof header + header.key_size));
 }
 
-/// Opens a folder. Creates it, if missing, with access for this user only, and its parents as
-/// usual.
+/// Opens a folder. Creates a missing folder with access for this user only, and missing parents
+/// with the usual access.
 int make_own_folder(const fs::path& folder) {
     if (const int opened = open_own_folder(folder); opened >= 0) return opened;
     std::error_code error;
@@ -116,7 +116,7 @@ int make_own_folder(const fs::path& folder) {
     return open_own_folder(folder);
 }
 
-/// Whether a file starts with this magic, ignoring the version in its last byte.
+/// Whether a file starts with `magic`. Ignores the last byte of `magic`, which is a version.
 bool has_magic(const Descriptor& folder, const std::string& name, std::string_view magic) {
     const Descriptor file(open_to_read(folder, name));
     char first[8] = {};

@@ -24,7 +24,8 @@ public:
     /// The properties shared by all files of one kind. Several kinds may share a folder.
     struct Kind {
         std::string_view suffix;  ///< The ending of all names of these files, such as ".kernel".
-        std::string_view magic;   ///< The first eight bytes of each file. The last is a version.
+        /// The first eight bytes of each file. The last of these bytes is a version.
+        std::string_view magic;
         /// When all files together exceed this number of bytes, the oldest are removed.
         std::uint64_t limit = 0;
     };

@@ -27,7 +27,7 @@ std::string_view take_reason() {
 LateLibrary::LateLibrary(const char* file)
     : file_(file), handle_(::dlopen(file, RTLD_LAZY | RTLD_LOCAL)) {
     if (handle_) return;
-    // The loader gives this reason if it gets no memory from the system.
+    // The reason contains one of these texts if the loader gets no memory from the system.
     const std::string_view reason = take_reason();
     for (const char* words : {"failed to map segment", "annot allocate memory"}) {
         if (reason.find(words) != std::string_view::npos) throw std::bad_alloc();

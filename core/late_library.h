@@ -1,4 +1,5 @@
-// Shared libraries loaded at first use, because loading some takes longer than most commands.
+// Shared libraries loaded at first use, because loading some of them takes longer than most
+// commands.
 #pragma once
 
 namespace cascade {

@@ -1,4 +1,4 @@
-// Links are followed one by one, since the last may lead to a file that does not exist.
+// Links are followed one by one, since the last link may lead to a file that does not exist.
 #include "core/link_target.h"
 
 #include <system_error>

@@ -1,4 +1,5 @@
-// Builds slices of links. Cells list their links in order, padded by links of weight 0.
+// Builds slices of links. Each cell keeps its links in their order. Links of weight 0 pad the cells
+// that have fewer links than others.
 #include "core/links.h"
 
 #include "core/check.h"
@@ -60,7 +61,7 @@ public:
         std::array<Range, slice_cells> links;
         std::array<std::int64_t, slice_cells> own{};
 
-        /// The remaining links of the cell that has most of them; null if no links remain.
+        /// The remaining links of the cell with the most remaining links; null if no links remain.
         const Range* longest() const {
             const auto most =
                 std::max_element(links.begin(), links.end(),
@@ -107,7 +108,7 @@ private:
     std::span<const std::uint32_t> order_;
 };
 
-/// Makes room for the offsets of more entries.
+/// Makes room for the offsets of more entries and returns the place of the first of these offsets.
 std::int16_t* Links::add_offsets(std::size_t entries) {
     const std::size_t present = slices_.bases.size() * slice_cells,
                       all = present + entries * slice_cells;
@@ -202,8 +203,8 @@ void Links::add_near_slice(const auto& slice, std::span<const std::int32_t> elem
     }
 }
 
-// Nearly all slices have only near links. These fill each lane from the first entry on, so they are
-// stored lane by lane.
+// Nearly all slices have only near links. Near links fill each lane from the first entry on, so
+// they are stored lane by lane.
 void Links::add_slice(auto slice, const PlacedLinks& links, const PlaneLayout& layout,
                       std::vector<std::int32_t>& elements) {
     const double row_of_cell = 1 / static_cast<double>(layout.width);

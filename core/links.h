@@ -26,15 +26,15 @@
 
 namespace cascade {
 
-/// Links as kernels read them. Entry e is at [16·e, 16·e + 16), and slice s has the entries
-/// starts[s] … starts[s + 1] − 1. In a plane of W columns, slice s is at column 16·(s mod n) of row
-/// s / n, with n = ⌈W/16⌉.
+/// Links as kernels read them. The links of entry e have the indices 16·e … 16·e + 15 in the arrays
+/// of links, and slice s has the entries starts[s] … starts[s + 1] − 1. In a plane of W columns,
+/// slice s is at column 16·(s mod n) of row ⌊s/n⌋, with n = ⌈W/16⌉.
 template <typename Number>
 struct LinkTable {
     static constexpr std::int64_t slice_cells = PlaneLayout::row_pad;
 
     const std::uint32_t* starts = nullptr;
-    /// Per entry: the number of elements from cell (0, 0) to the base.
+    /// The number of elements from cell (0, 0) to the base of each entry.
     const std::int32_t* bases = nullptr;
     const std::int16_t* offsets = nullptr;  ///< Numbers of elements from the base to the neighbour.
     /// Factor of (neighbour − cell) in a Laplacian; null if the links have no weights.
@@ -42,7 +42,8 @@ struct LinkTable {
     /// The factors for the components of a gradient in space; null unless requested.
     std::array<const Number*, 3> gradients{};
     std::int64_t reach = 1;  ///< The largest number of rows that a link spans; at least 1.
-    const std::uint16_t* filled = nullptr;  ///< Per entry: bit k is set if lane k has a link in it.
+    const std::uint16_t* filled =
+        nullptr;  ///< Bit k of an entry's number is set if lane k has a link in this entry.
 
     /// The element to which a link leads, counted from cell (0, 0).
     std::int64_t target(std::int64_t link) const {
@@ -95,9 +96,9 @@ public:
           std::span<const std::uint32_t> order = {});
 
     /// Replaces the table by `links`, which have no weights. Reuses the present memory if it is
-    /// large enough and not shared with a copy. Invalidates earlier tables. `ends` has at least one
-    /// cell and at most as many as `layout`. Cell k is at column k mod width of row k / width.
-    /// Padding cells get the links of the last cell. Throws std::bad_alloc.
+    /// large enough and not shared with a copy. Invalidates earlier tables. `links` have at least
+    /// one cell and at most as many cells as `layout`. Cell k is at column k mod width of row k /
+    /// width. Padding cells get the links of the last cell. Throws std::bad_alloc.
     ///
     /// `changed` is empty, or says for each cell whether its links differ from the present table,
     /// which then must have the same layout and precision. Slices without changes are copied.

@@ -19,7 +19,8 @@ namespace fs = std::filesystem;
 
 constexpr int file_flags = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY;
 
-/// The descriptor that a call returns, or its negative error number. Repeats interrupted calls.
+/// Repeats a call that signals interrupt. Returns the call's descriptor, or the negative error
+/// number.
 template <typename Call>
 int without_signals(const Call& call) {
     while (true) {

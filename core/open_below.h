@@ -7,7 +7,8 @@
 
 namespace cascade {
 
-/// The way to resolve a path: by the kernel (openat2 of Linux 5.6) if possible, or part by part.
+/// The ways to resolve a path: by the kernel (openat2 of Linux 5.6) if possible and otherwise part
+/// by part, or always part by part.
 enum class PathWalk { kernel_or_parts, parts };
 
 /// Opens `file` for reading below the open folder. Returns a descriptor or the negative error

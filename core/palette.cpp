@@ -45,7 +45,7 @@ std::span<const Palette> palettes() { return all_palettes; }
 
 std::optional<Colour> find_colour(std::string_view word) {
     if ((word.size() != 4 && word.size() != 7) || word[0] != '#') return std::nullopt;
-    const std::size_t digits = word.size() / 3;  // Digits of a channel.
+    const std::size_t digits = word.size() / 3;  // Digits per channel.
     Colour colour{};
     for (std::size_t channel = 0; channel < colour.size(); ++channel) {
         unsigned value = 0;
@@ -68,7 +68,8 @@ namespace {
 
 constexpr std::size_t most_stops = 64;
 
-/// A user's palette, with the texts and the stops that it refers to.
+/// A palette given by its colours. Its name and stops are stored here, because `palette` only
+/// refers to them.
 struct OwnPalette {
     std::string name;
     std::vector<Colour> stops;
@@ -76,7 +77,8 @@ struct OwnPalette {
     const OwnPalette* next = nullptr;
 };
 
-/// Like literals in scripts, palettes are never removed. Any thread may add to the list.
+/// Finds or adds a palette given by its colours. Returns null if `name` gives none. Palettes are
+/// never removed, like literals in scripts. Any thread may call this function.
 const Palette* find_own(std::string_view name) {
     static std::atomic<const OwnPalette*> newest = nullptr;
     for (const OwnPalette* each = newest; each != nullptr; each = each->next) {

@@ -50,7 +50,8 @@ void wait_while(const std::atomic<std::uint32_t>& word, std::uint32_t old, int s
     }
 }
 
-/// Processors that the CPU quota of this control group (version 2) allows; 0 if there is no quota.
+/// The number of processors that the CPU quota of this control group (version 2) allows; 0 if there
+/// is no quota.
 int quota_of_control_group() {
     std::FILE* file = std::fopen("/sys/fs/cgroup/cpu.max", "r");
     if (!file) return 0;
@@ -81,7 +82,8 @@ struct Abandoned {};
 /// A reusable barrier. Each word that threads wait for has its own cache line.
 struct Meeting {
     alignas(64) std::atomic<std::uint32_t> count{0};  ///< Number of completed meetings.
-    std::atomic<bool> is_off{false};                  ///< Set before `count` is increased.
+    /// Whether call_off() was called. Set before `count` is increased.
+    std::atomic<bool> is_off{false};
     alignas(64) std::atomic<int> arrived{0};  ///< Number of threads that wait for the others.
 
     /// Ends the wait of the other threads, now and at later meetings.
@@ -109,7 +111,7 @@ struct Meeting {
 
 struct Team::State {
     alignas(64) std::atomic<std::uint32_t> task{
-        0};              ///< Counts calls of run(). Workers wait for it to change.
+        0};              ///< Counts calls of run(). Workers wait until the count changes.
     Meeting barrier;     ///< The active threads of a run wait here for each other.
     Meeting end_of_run;  ///< All threads of the team wait here for each other.
     alignas(64) const std::function<void(int)>* work = nullptr;  ///< Null tells workers to end.
@@ -124,7 +126,7 @@ struct Team::State {
     void attempt(int index) noexcept {
         try {
             (*work)(index);
-        } catch (const Abandoned&) {  // The other thread's exception gives the reason.
+        } catch (const Abandoned&) {  // The exception of another thread is reported.
         } catch (...) {
             const std::lock_guard lock(of_error);
             if (!error) error = std::current_exception();

@@ -15,7 +15,7 @@ int hardware_threads();
 /// exception that complete() catches. Any thread of a Team may call this function.
 [[noreturn]] void abandon_work();
 
-/// Calls `work`. Returns false if the work was abandoned.
+/// Calls `work`. Returns false if abandon_work() ended it.
 bool complete(const std::function<void()>& work);
 
 /// A team of `size` threads, or fewer if the system refuses to start more. The calling thread is

@@ -15,7 +15,7 @@ struct ColumnRange {
     std::int64_t end = std::numeric_limits<std::int64_t>::max();  ///< May exceed the width.
 
     bool contains(std::int64_t column) const { return begin <= column && column < end; }
-    /// The range limited to a row of this width.
+    /// This range, cut off at the width of a row.
     ColumnRange within(std::int64_t width) const { return {begin, std::min(end, width)}; }
     std::int64_t count() const { return end - begin; }
 };

@@ -109,8 +109,8 @@ private:
         }
     }
 
-    /// The number of the first cell beside a side in a row. In a halo row, this is the number in
-    /// the nearest row of cells, because side values continue into the halo as the field does.
+    /// The number of the first cell beside a side in a row. A halo row has the number of the
+    /// nearest row of cells, because the side's values continue into the halo as the field's do.
     std::int64_t first_beside(Side side, RowPlace from) const {
         const std::int64_t of_slice = from.row < 0                 ? source(Side::top)
                                       : from.row >= layout_.height ? source(Side::bottom)

@@ -41,7 +41,7 @@ Block& block_of(const void* plane) {
 std::size_t next_shift(std::size_t bytes) {
     constexpr std::size_t small_plane = 65536, lines_of_way = 2048, lines_of_page = 64;
     static std::atomic<std::size_t> planes{0};
-    std::size_t lines = 1;  // Counts the line of the header.
+    std::size_t lines = 1;  // One cache line for the header.
     if (bytes >= small_plane) {
         const std::size_t place = 783 * planes.fetch_add(1, std::memory_order_relaxed);
         lines += place % (bytes >= 2 * huge_page ? lines_of_way : lines_of_page);

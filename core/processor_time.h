@@ -5,7 +5,8 @@
 
 namespace cascade {
 
-/// Seconds that all threads of this process have used so far. Signal handlers may call it.
+/// Seconds that all threads of this process have used so far. Signal handlers may call this
+/// function.
 inline double processor_seconds() {
     timespec now = {};
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);

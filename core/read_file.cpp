@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A descriptor, or the negative error number.
+/// Opens a file. Returns its descriptor or the negative error number.
 int open_to_read(const fs::path& path, int flags) {
     int number = -1;
     do {
@@ -47,7 +47,7 @@ Result<std::string> read_all(int opened, std::uint64_t largest, std::string_view
     const auto size = static_cast<std::uint64_t>(status.st_size);
     if (is_plain && size > largest) return too_large();
 
-    // A pipe reports no size, and a file may grow meanwhile, so this reads until the end.
+    // A pipe reports no size, and a file may grow meanwhile, so bytes are read until the end.
     std::string bytes;
     bytes.reserve(is_plain ? size + 1 : 0);
     constexpr std::size_t chunk = 1 << 16;

@@ -14,9 +14,11 @@ namespace cascade {
 
 namespace {
 
-constexpr std::size_t widest_excerpt = 100;   // The widest shown part of a source line.
-constexpr std::size_t columns_in_front = 60;  // A span further right hides the line's start.
-constexpr std::size_t columns_kept = 40;      // Characters shown before such a span.
+// The largest number of columns shown of a source line.
+constexpr std::size_t widest_excerpt = 100;
+constexpr std::size_t columns_in_front =
+    60;  // If a span begins further right, the start of its line is left out.
+constexpr std::size_t columns_kept = 40;  // The number of characters then shown before the span.
 constexpr std::size_t tab_stop = 8;
 constexpr std::string_view ellipsis = "\xe2\x80\xa6";  // U+2026.
 

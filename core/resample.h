@@ -5,8 +5,8 @@
 
 namespace cascade {
 
-/// The grid of the same domain with cells `times` as wide. Along each axis, the number of cells
-/// must be a multiple of `times`, or 1, which stays 1.
+/// The grid of the same domain with cells `times` times as wide. The number of cells along each
+/// axis must be a multiple of `times`, or 1. A single cell stays a single cell.
 Grid coarser(const Grid& grid, std::int64_t times);
 
 /// A plane on a coarser grid: each cell has the mean of its fine cells, summed in binary64.
@@ -20,8 +20,8 @@ template <typename Number>
 Plane<Number> refined(Plane<Number>& coarse, const Grid& coarse_grid, const Grid& fine_grid,
                       const SideRules& sides);
 
-/// The grid of the same domain with each cell divided into `times` along each axis. An axis of one
-/// cell stays one.
+/// The grid of the same domain with each cell divided into `times` along each axis. An axis with
+/// one cell keeps one cell.
 Grid finer_grid(const Grid& grid, std::int64_t times);
 
 /// A plane on the grid that finer_grid() returns. Values between cells lie on the curves of

@@ -1,4 +1,4 @@
-// Ranges of rows. Also used to say which part of a grid is meant.
+// Ranges of rows, which also select a part of a grid.
 #pragma once
 
 #include <cstdint>

@@ -10,8 +10,9 @@ namespace cascade {
 
 /// The progress of a stage. Sent about ten times a second and once more when the stage ends.
 struct Progress {
-    std::string doing;     ///< Names the current activity between stages. Its progress is `step` of
-                           ///< `steps` if `steps` is above 0.
+    /// Names the current activity between stages. Its progress is `step` of `steps` if `steps` is
+    /// above 0.
+    std::string doing;
     std::string stage;     ///< The stage's name.
     std::string note;      ///< Words to print after the stage's name; usually empty.
     int stage_number = 1;  ///< Counted from 1.
@@ -32,7 +33,7 @@ struct Progress {
 inline const std::atomic<bool> never_cancelled{false};
 
 /// Shared between a run and its observer. A signal handler or another thread may set `cancel`. The
-/// run then ends after a complete step. It abandons a step that takes long.
+/// run then ends after a complete step, or abandons a step that takes long.
 struct RunControl {
     std::atomic<bool> cancel{false};
     /// Set some time after `cancel` if the program must end soon: outputs that take long to write

@@ -11,7 +11,8 @@ std::filesystem::path shared_file(const std::filesystem::path& name) {
     namespace fs = std::filesystem;
     std::error_code unknown;
     const fs::path program = fs::read_symlink("/proc/self/exe", unknown);
-    // If this code is in a library, the running program may be Python.
+    // Asks for the file that contains this code. If that file is a library, the running program may
+    // be Python.
     Dl_info object{};
     const bool found = ::dladdr(reinterpret_cast<const void*>(&shared_file), &object) != 0;
     const fs::path library = found && object.dli_fname ? object.dli_fname : "";

@@ -21,7 +21,8 @@ inline const void* memory_of(const Field& field) {
 }
 
 /// Returns an object that keeps the cells of a field unchanged while it exists. Code that changes
-/// cells in place, such as a step, must first test is_shared() and, if true, change a copy instead.
+/// cells in place, such as a step, must first call is_shared(). If it returns true, the code must
+/// change a copy.
 inline std::shared_ptr<const void> share(const Field& field) {
     const void* const memory = memory_of(field);
     add_owner_of_plane(memory);

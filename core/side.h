@@ -12,8 +12,8 @@
 
 namespace cascade {
 
-/// The sides of the grid, two per axis: before the first and after the last cells. Then the border
-/// of a mask, which runs between cells of the grid.
+/// The sides of the grid, two per axis: before the first and after the last cells. `border` is the
+/// border of a mask, which runs between cells of the grid.
 enum class Side : std::uint8_t { left, right, top, bottom, front, back, border };
 
 inline constexpr std::size_t side_count = 6;  ///< The sides of the grid.
@@ -52,8 +52,8 @@ inline constexpr std::array<std::string_view, 5> side_kind_words{"periodic", "no
 /// beside a side.
 struct SideValues {
     std::int64_t first = 0;  ///< The number of the cell that has the first value.
-    std::vector<double>
-        numbers;  ///< One for each cell at the side whose value determines a cell of the halo.
+    /// One value for each cell beside the side from which the field's plane fills a halo cell.
+    std::vector<double> numbers;
 
     double at(std::int64_t cell) const { return numbers[static_cast<std::size_t>(cell - first)]; }
 };
@@ -73,7 +73,7 @@ struct SideRules {
     double spacing = 1;
 
     SideRules() = default;
-    SideRules(const Boundaries& boundary) {  // NOLINT: implicit, boundaries are rules.
+    SideRules(const Boundaries& boundary) {  // NOLINT: implicit, because boundaries are rules.
         const std::array<Boundary, 3> along{boundary.x, boundary.y, boundary.z};
         for (std::size_t side = 0; side < side_count; ++side) {
             at[side].kind =

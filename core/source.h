@@ -16,7 +16,8 @@ namespace cascade {
 /// The index of a source in its Sources.
 using SourceId = std::uint32_t;
 
-/// The bytes [begin, end) of one source. If `begin == end`, a position between two characters.
+/// The bytes [begin, end) of one source. If `begin == end`, the span is a position between two
+/// characters.
 struct Span {
     SourceId source = 0;
     std::uint32_t begin = 0;
@@ -25,7 +26,7 @@ struct Span {
     friend bool operator==(const Span&, const Span&) = default;
 };
 
-/// The smallest span that covers both, which must be in one source.
+/// The smallest span that covers both spans, which must be in one source.
 Span join(Span first, Span last);
 
 /// A line and a column as shown to a user. Both count from 1, and columns count code points, not

@@ -28,8 +28,8 @@ template <typename Result, typename Number, typename Combine>
     return results;
 }
 
-/// Finds the smallest and the largest of a multiple of `lanes` values, at least one. Compilers do
-/// not vectorise such loops by themselves.
+/// Finds the smallest and the largest of `values`. Their number is a positive multiple of `lanes`.
+/// Compilers do not vectorise such loops by themselves.
 template <typename Number>
 [[gnu::always_inline]] inline void find_extremes(std::span<const Number> values, Spread& spread) {
     typedef Number Vector [[gnu::vector_size(lanes * sizeof(Number))]];
@@ -47,8 +47,8 @@ template <typename Number>
     }
 }
 
-/// Statistics of a multiple of `lanes` values, at least one. The mean is not finite if a value is
-/// not.
+/// Statistics of values whose number is a positive multiple of `lanes`. The mean is not finite if
+/// some value is not.
 template <typename Number>
 [[gnu::always_inline]] inline Spread spread_of_finite(std::span<const Number> values) {
     Spread spread;
@@ -89,7 +89,8 @@ Spread spread_of_all(std::span<const Number> values) {
     return spread;
 }
 
-/// Statistics of the values that count, added range by range of adjacent values.
+/// Statistics of the values where `counts` is not 0. Adds up the statistics of ranges of adjacent
+/// values of this kind.
 template <typename Number>
 Spread spread_of_some(std::span<const Number> values, const std::uint8_t* counts) {
     if (counts == nullptr) return spread_of_all(values);

@@ -65,8 +65,8 @@ Spread spread_of(const ForEach& for_each) {
     return spread;
 }
 
-/// The statistics of adjacent values. If `counts` is not null, only values where it is not 0 count.
-/// Several times as fast if all values are finite and all count.
+/// The statistics of adjacent values. If `counts` is not null, ignores the values where `counts` is
+/// 0. Several times as fast if no value is ignored and all are finite.
 Spread spread_of(std::span<const float> values, const std::uint8_t* counts = nullptr);
 Spread spread_of(std::span<const double> values, const std::uint8_t* counts = nullptr);
 

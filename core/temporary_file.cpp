@@ -22,8 +22,8 @@ namespace {
 constexpr std::string_view beginning = ".cascade-";
 constexpr std::size_t digit_count = 32;
 
-/// A file is locked only a moment after its creation, and some network file systems support no
-/// locks.
+/// A younger file may have a living writer although the file is not locked, because files are
+/// locked only a moment after their creation and some network file systems support no locks.
 constexpr std::time_t youngest_dead = 60 * 60;
 
 int make_new(const Descriptor& folder, const std::string& name, mode_t mode) {
@@ -132,7 +132,7 @@ void TemporaryFile::remove_all() noexcept {
 int TemporaryFile::write(std::string_view bytes) {
     if (error_ != 0) return error_;
     if (const int error = write_all(file_, bytes)) return error;
-    // Otherwise a crash of the machine could leave an empty file under the new name.
+    // Without fsync(), a crash of the machine could leave an empty file under the new name.
     return ::fsync(file_.number()) == 0 || errno == EINVAL ? 0 : errno;
 }
 

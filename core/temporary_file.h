@@ -38,7 +38,7 @@ public:
     TemporaryFile(const TemporaryFile&) = delete;
     TemporaryFile& operator=(const TemporaryFile&) = delete;
 
-    /// 0, or the error number of its creation.
+    /// The error number of the file's creation; 0 if the file was created.
     int error() const { return error_; }
     const Descriptor& file() const { return file_; }
     const std::string& name() const { return name_; }
@@ -65,7 +65,7 @@ private:
     Descriptor file_;
     bool is_ours_ = false;  ///< Whether the file exists and must be removed.
     int error_ = 0;
-    int slot_ = -1;  ///< The index in the list of remove_all(); negative: not listed.
+    int slot_ = -1;  ///< The index in the list of remove_all(); negative if not listed.
 };
 
 /// Whether a TemporaryFile with this ending could have this name.

@@ -8,8 +8,8 @@
 
 namespace cascade {
 
-/// Numbers are floats, doubles, or types with their operators, `sqrt` and `inverse`, such as the
-/// terms of lang/program/terms.h.
+/// `Number` is float, double, or a type with the same operators and with `sqrt` and `inverse`, such
+/// as the terms of lang/program/terms.h.
 template <typename Number>
 struct BasicVector3 {
     Number x{}, y{}, z{};

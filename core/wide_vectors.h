@@ -5,10 +5,9 @@
 
 /// Compiles a function for several widths of vectors. At program start, the processor's features
 /// decide which version runs. Only for functions whose results do not depend on the width of
-/// vectors.
-// The thread sanitizer would instrument the code that chooses the version, which runs before the
-// sanitizer has started. Clang 19 does not emit inline functions, such as constructors, that only
-// such a function calls.
+/// vectors. The thread sanitizer would instrument the code that chooses the version, which runs
+/// before the sanitizer has started. Clang 19 does not emit inline functions, such as constructors,
+/// that are called only by a function compiled this way.
 #if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_THREAD__) && \
     !defined(__clang__)
 #define WITH_WIDE_VECTORS __attribute__((target_clones("avx512f", "avx2", "default")))

@@ -21,10 +21,10 @@ public:
 
     OpenDevice& open() { return open_; }
     const DeviceFacts& facts() const { return open_.facts(); }
-    /// The form of programs of a precision for this device, and whether the device's results have
-    /// the same bits as Cascade's. The first call runs a small program.
+    /// Finds the form of programs of a precision for this device, and whether the device's results
+    /// have the same bits as Cascade's. The first call runs a small program.
     const ProbeResult& probe(Precision precision);
-    /// A compiled program. Equal programs are compiled once.
+    /// Returns a compiled program. Equal programs are compiled once.
     const DeviceProgram& program(const std::string& source, const TextTarget& target);
 
 private:

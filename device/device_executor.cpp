@@ -144,13 +144,14 @@ private:
     DeviceCheck check_;
     std::optional<DeviceSums> sums_;
     const StepProblem* problem_ = nullptr;
-    std::list<DevicePasses> all_passes_;  ///< One per problem: steps may return to an old problem.
+    /// One for each problem, because steps may return to an earlier problem.
+    std::list<DevicePasses> all_passes_;
     DevicePasses* passes_ = nullptr;
     std::optional<HaloGroup> of_copies_;  ///< The halos of all species.
     std::vector<Field> fetched_, fetched_scratch_;
     std::optional<OpenclError> lost_;
     Clock::time_point began_;  ///< The time at which the queue was last empty.
-    std::size_t waiting_ = 0;  ///< Passes in the queue.
+    std::size_t waiting_ = 0;  ///< The number of passes in the queue.
     std::int64_t rows_of_launch_ = 0;
 };
 

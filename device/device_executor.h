@@ -8,8 +8,8 @@
 
 namespace cascade {
 
-/// The reason why a device cannot run the steps of a problem, as words that follow "because". Empty
-/// if it can.
+/// The reason why a device cannot run the steps of a problem, worded to follow "because". Empty if
+/// the device can run them.
 std::string reason_against(const StepProblem& problem, const DeviceFacts& facts);
 
 }  // namespace cascade

@@ -11,7 +11,8 @@ namespace cascade {
 
 /// Planes of one buffer whose halos are filled together.
 struct HaloGroup {
-    std::vector<std::int64_t> origins;  ///< By plane: the element of cell (0, 0, 0).
+    /// The number of the element of cell (0, 0, 0) in each plane.
+    std::vector<std::int64_t> origins;
     DeviceBuffer places, kinds, numbers, side_values;
 };
 
@@ -19,9 +20,9 @@ class DeviceHalos {
 public:
     DeviceHalos(Device& device, const TextTarget& target, const PlaneLayout& layout);
 
-    /// A group with a rule for each plane.
+    /// Makes a group of planes with rules for the sides of each plane.
     HaloGroup group(std::vector<std::int64_t> origins, const std::vector<SideRules>& rules);
-    /// Replaces the rules of a group.
+    /// Replaces the rules of all planes of a group.
     void set_rules(HaloGroup& group, const std::vector<SideRules>& rules);
     void fill(const DeviceBuffer& planes, const HaloGroup& group);
 

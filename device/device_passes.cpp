@@ -1,4 +1,4 @@
-// Binds the parameters of problem_text.h.
+// Binds the arguments of the kernels that problem_text.h prints.
 #include "device/device_passes.h"
 
 #include "core/check.h"

@@ -17,7 +17,7 @@ namespace cascade {
 class DevicePasses {
 public:
     /// Compiles the problem's kernels and writes its constant planes to the device. `halos` and
-    /// `sums` must outlive the passes; `sums` may be null if the problem has no aggregates.
+    /// `sums` must outlive the passes. `sums` may be null if the problem has no aggregates.
     DevicePasses(Device& device, const StepProblem& problem, const TextTarget& target,
                  DeviceHalos& halos, DeviceSums* sums);
 
@@ -25,12 +25,12 @@ public:
     void run(std::size_t pass, CopyRoles roles, const StepMoment& moment,
              const DevicePlanes& planes);
 
-    /// Limits the rows of a launch, and so its duration.
+    /// Limits the rows of a launch, and thus the launch's duration.
     void limit_rows(std::int64_t rows) { rows_of_launch_ = rows; }
 
     /// Whether these passes were made for this problem, and their program is `text`.
     bool are_of(const StepProblem& problem, const std::string& text) const;
-    /// The bytes of all constant planes and links.
+    /// The number of bytes of all constant planes and links.
     static std::uint64_t constant_bytes(const StepProblem& problem);
 
 private:
@@ -39,7 +39,7 @@ private:
         std::vector<StepProblem::ChangingUniform> passed;
         /// Results that have halos and are in the same buffer.
         struct Halos {
-            std::optional<RegisterId> in_register;  ///< nullopt: temporaries.
+            std::optional<RegisterId> in_register;  ///< nullopt for temporaries.
             std::vector<std::size_t> results;
             HaloGroup group;
         };

@@ -48,7 +48,7 @@ private:
     std::uint32_t temporary_count_ = 0;
 };
 
-/// The first element of a plane's memory, halo included.
+/// The address of the first element of a plane's memory, halo included.
 const void* memory_of(const Field& field);
 void* memory_of(Field& field);
 

@@ -23,8 +23,7 @@ public:
     /// cells over which a mean is taken.
     void reduce(ReductionKind kind, const DevicePlane& plane, std::int64_t cells,
                 const DeviceBuffer& aggregates, std::uint32_t number);
-    /// The sums of squares of all rows. Only the first `counted` cells count. All later cells count
-    /// as 0.
+    /// The sums of squares of all rows. Cells from number `counted` on count as 0.
     std::vector<double> squares(const DevicePlane& plane, std::int64_t counted);
 
 private:

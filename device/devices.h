@@ -23,9 +23,9 @@ Result<std::shared_ptr<Device>> open_device(std::string_view choice);
 Result<std::string> list_devices();
 
 /// Makes executors whose planes stay on the device. Problems that the device cannot run are run by
-/// threads instead. Unless `tell` is empty, it is then called with the end of a sentence that says
-/// so, such as "runs on threads instead of NAME, because it has a convolution". It is also called
-/// if the results may differ.
+/// threads instead. For such a problem, `tell` (unless empty) is called with the end of a sentence
+/// such as "runs on threads instead of NAME, because it has a convolution". It is also called if
+/// the device's results may differ from Cascade's.
 ///
 /// A device whose results have other bits than the interpreter's is refused unless `may_differ` is
 /// true. The executors throw an ExecutorFailure if the device fails, or has too little memory.

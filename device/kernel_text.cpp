@@ -129,8 +129,8 @@ private:
         return passes_words(instruction.op);
     }
 
-    /// The text of a constant. If compilers could simplify arithmetic with it, it passes through
-    /// c_pad.
+    /// The text of a constant, combined with c_pad if compilers could otherwise simplify arithmetic
+    /// with the constant.
     std::string word(std::uint64_t bits) const {
         const std::string literal =
             fmt::format("{:#x}{}", bits, target_.precision == Precision::single ? "u" : "ul");

@@ -1,4 +1,4 @@
-// The functions of OpenCL 1.2, loaded when a device is asked for. Cascade does not link the loader,
+// The functions of OpenCL 1.2, loaded when a device is requested. Cascade does not link the loader,
 // so everything else works without it.
 //
 // Internal to device/.
@@ -30,8 +30,8 @@ struct OpenclApi {
 #undef CASCADE_MEMBER
 };
 
-/// The functions of the system's loader, libOpenCL.so.1. If there is none, fails with a hint about
-/// what to install. The library stays loaded.
+/// The functions of the system's loader, libOpenCL.so.1. Fails with a hint about what to install if
+/// the loader is missing. The library stays loaded.
 Result<const OpenclApi*> opencl_api();
 
 /// Thrown when a call to OpenCL fails: the device was lost, or lacks memory.
@@ -39,7 +39,7 @@ struct OpenclError : std::exception {
     OpenclError(std::string what_failed, cl_int error_code);
     const char* what() const noexcept override { return message.c_str(); }
 
-    std::string message;  ///< "clFinish: out of resources (-5)".
+    std::string message;  ///< A text such as "clFinish: out of resources (-5)".
     cl_int code;
 };
 

@@ -24,10 +24,11 @@ struct DeviceFacts {
     bool is_gpu = false;
     bool has_double = false;
     bool has_fast_fma = false;
-    bool promises_division = false;  ///< Binary32 quotients and roots are rounded correctly.
-    std::uint64_t memory = 0;        ///< Bytes.
+    /// Whether binary32 quotients and roots are rounded correctly.
+    bool promises_division = false;
+    std::uint64_t memory = 0;  ///< In bytes.
     std::uint64_t largest_buffer = 0;
-    std::size_t largest_group = 1;  ///< The most work-items in a work-group.
+    std::size_t largest_group = 1;  ///< The largest number of work-items in a work-group.
 };
 
 struct FoundDevice {
@@ -89,7 +90,7 @@ public:
         begin();
         (add(arguments), ...);
     }
-    // Sets the arguments one at a time.
+    // Sets the arguments one at a time: begin(), then add() for each argument.
     void begin() { next_ = 0; }
     void add(const DeviceBuffer& buffer) {
         const cl_mem memory = buffer.memory();
@@ -164,12 +165,12 @@ public:
     void copy(const DeviceBuffer& from, std::size_t from_offset, const DeviceBuffer& to,
               std::size_t to_offset, std::size_t size);
     /// Adds a kernel that runs on columns × rows work-items. A work-group consists of `group`
-    /// columns of one row; `columns` is a multiple of `group`.
+    /// columns of one row. `columns` is a multiple of `group`.
     void launch(const DeviceKernel& kernel, std::size_t columns, std::size_t rows,
                 std::size_t group);
-    /// Starts the added commands.
+    /// Starts the commands added so far.
     void flush();
-    /// Waits for the added commands.
+    /// Waits until all added commands have been executed.
     void finish();
 
     /// The number of columns in a work-group: the largest multiple of `unit` that divides `columns`

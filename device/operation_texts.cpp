@@ -1,4 +1,5 @@
-// The tables of texts. An operation without a text in each language does not compile.
+// The tables of texts. The file does not compile if an operation lacks a text in one of the
+// languages.
 #include "device/operation_texts.h"
 
 #include <array>

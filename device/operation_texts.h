@@ -1,7 +1,7 @@
 // The meaning of every operation of ir/operations.def in OpenCL C and in WGSL.
 //
 // Internal to device/. Values are words: in OpenCL C, `cw` is the integer type and `cn` the number
-// type of the kernel's precision; in WGSL, all values are u32. All names begin with c_, because
+// type of the kernel's precision, and in WGSL all values are u32. All names begin with c_, because
 // both languages have built-in functions such as step() and mix(). A kernel with such a name would
 // be missing without any error.
 //

@@ -21,7 +21,8 @@ Number passed_value(const StepProblem::ChangingUniform& uniform, const StepMomen
             [&](Sweep::Coefficient by) {
                 return static_cast<Number>(by.times_step ? by.value * moment.length : by.value);
             },
-            [](AggregateId) { return Number{0}; },  // Read from its buffer.
+            // The kernel reads aggregates from their buffer.
+            [](AggregateId) { return Number{0}; },
         },
         uniform.value);
 }

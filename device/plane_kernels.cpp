@@ -1,4 +1,4 @@
-// The texts of the kernels.
+// The source texts of the kernels.
 #include "device/plane_kernels.h"
 
 namespace cascade {

@@ -1,5 +1,5 @@
 // Kernels that can be used with the planes of any problem: halos, checks for numbers that are not
-// finite, and sums. Drivers store compiled programs, so these are compiled once per device.
+// finite, and sums. Drivers store compiled programs, so these kernels are compiled once per device.
 #pragma once
 
 #include "device/prelude.h"
@@ -15,8 +15,8 @@ namespace cascade {
 ///        cell is not finite. Work-items: 64 × rows.
 std::string plane_kernels_text(const TextTarget& target);
 
-/// Sums in binary64, in the order of ir/reduction.h and solvers/field_norms.h. For devices with
-/// binary64. After each kernel follow its work-items.
+/// Sums in binary64, in the order of ir/reduction.h and solvers/field_norms.h. Only for devices
+/// with binary64. The text after each kernel says how many work-items it needs.
 /// c_row_parts(plane, place, parts, kind, width, height, stride, slice_stride): 8 × rows.
 /// c_row_values(parts, rows, kind, width): 1 × rows.
 /// c_fold_rows(rows, spare, count, kind, cells, aggregates, number): one work-group of 64.

@@ -25,31 +25,31 @@ enum class Flushing : std::uint8_t { by_device, by_kernel };
 /// WGSL has no binary64: programs in WGSL are in single precision.
 enum class TextLanguage : std::uint8_t { opencl, wgsl };
 
-/// The device properties and the precision for which a program is printed.
+/// The properties of a device and the precision for which a program is printed.
 struct TextTarget {
     Precision precision = Precision::single;
     Flushing flushing = Flushing::by_kernel;
-    /// Whether fma() is an instruction. If not, a Laplacian is computed without it, with the same
-    /// result.
+    /// Whether fma() is a single instruction. If not, a Laplacian is computed without fma(), with
+    /// the same result.
     bool has_fast_fma = false;
     /// Whether elements of a plane are counted in 64 bits.
     bool has_large_planes = false;
     TextLanguage language = TextLanguage::opencl;
 };
 
-/// The types and functions of a program. Must come first.
+/// The types and functions of a program, which must come first in it.
 std::string prelude_text(const TextTarget& target);
 
-/// The sum of the neighbours of a cell. `cell` is the text of the word at a distance, with {} for
-/// the distance, for example "c_f[c_at + ({})]".
+/// An expression for the sum of a cell's neighbours. `cell` is the text of the word at some
+/// distance, with {} in place of the distance, for example "c_f[c_at + ({})]".
 std::string neighbour_sum(Stencil stencil, const PlaneLayout& layout, std::string_view cell);
 
 /// The functions that read neighbours on a grid, or links: c_laplacian() and others. Comes after
 /// prelude_text().
 std::string stencil_text(const TextTarget& target, Stencil stencil, const PlaneLayout& layout);
 
-/// The parameters by which kernels receive links. The macro C_LINKS passes the links of a cell on
-/// to functions. Both are empty on grids.
+/// The parameters by which kernels receive links, empty on grids. The macro C_LINKS passes the
+/// links of a cell on to functions. It is empty on grids, too.
 std::string link_parameters(const TextTarget& target, bool linked);
 
 }  // namespace cascade

@@ -1,4 +1,5 @@
-// Computes each operation on pairs of difficult words, by a printed kernel and by the interpreter.
+// Computes each operation on pairs of difficult words, by a printed kernel and by the interpreter,
+// and compares the results.
 #include "device/probe.h"
 
 #include "core/check.h"
@@ -25,7 +26,7 @@ public:
     Probe(OpenDevice& device, const TextTarget& target)
         : device_(device), target_(target), layout_(grid_) {}
 
-    /// Describes the first difference; empty if there is none.
+    /// Describes the first difference. Empty if all results agree.
     std::string fault() {
         std::vector<Plane<Number>> given = probed_.arguments();
         const DeviceProgram built =

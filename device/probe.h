@@ -12,13 +12,14 @@ namespace cascade {
 
 struct ProbeResult {
     TextTarget target;
-    /// The first operation whose result has other bits, with its operands. Empty if all are right.
+    /// The first operation whose result has other bits than the interpreter's, with its operands.
+    /// Empty if all results have the same bits.
     std::string fault;
 
     bool is_exact() const { return fault.empty(); }
 };
 
-/// Tries both ways to flush, the faster first. Throws OpenclError and ProgramRefused.
+/// Tries both ways to flush, the faster one first. Throws OpenclError and ProgramRefused.
 ProbeResult probe(OpenDevice& device, Precision precision);
 
 }  // namespace cascade

@@ -28,7 +28,8 @@ std::vector<WordOf<Number>> hard_words() {
           format.exponent() - 1, format.exponent(), format.nan(), one, one - 1, one + 1, one + 2}) {
         add(word);
     }
-    // Numbers with dense digits and with exponents at both ends, for quotients and roots.
+    // Numbers with irregular digits, and with exponents from the least to the largest, for
+    // quotients and roots.
     std::uint64_t digits = 0x9e3779b97f4a7c15;
     for (const int exponent : {1, 2, format.bias / 2, format.bias - 1, format.bias,
                                format.bias + format.fraction_bits, 2 * format.bias}) {
@@ -63,7 +64,7 @@ CellKernel probing_kernel(Precision precision) {
             default: builder.result(name, builder.apply(op, a, b, b));
         }
     }
-    // A compiler that does not consider flushing replaces these results by a.
+    // A compiler that ignores flushing replaces these results by a.
     builder.result("a * 1", builder.multiply(a, builder.number(1)));
     builder.result("a + -0", builder.add(a, builder.word(builder.format().sign())));
     builder.result("least", builder.select(builder.apply(Op::less, a, b), a, b));

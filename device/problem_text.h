@@ -15,8 +15,8 @@ namespace cascade {
 struct ConstantPlanes {
     std::vector<const Field*> fields;
     std::vector<const Mask*> masks;
-    /// By field: the number of elements stored before it. Fields differ in size, because some have
-    /// a number for each link.
+    /// For each field, the number of elements stored before it. Fields differ in size, because some
+    /// have one number for each link.
     std::vector<std::int64_t> places;
     std::int64_t size = 0;  ///< The number of elements of all fields.
 
@@ -30,7 +30,7 @@ struct ConstantPlanes {
     }
 };
 
-/// The uniforms that are passed at each call: all that change, except aggregates.
+/// The uniforms that are passed at each call: all uniforms that change, except aggregates.
 std::vector<StepProblem::ChangingUniform> passed_uniforms(const StepProblem::Pass& pass);
 
 /// The name of a pass's kernel. Its parameters are, in this order:
@@ -46,8 +46,8 @@ std::vector<StepProblem::ChangingUniform> passed_uniforms(const StepProblem::Pas
 ///   - a word for each of passed_uniforms()
 std::string kernel_name(std::size_t pass);
 
-/// The reason why the passes of a problem cannot be printed, as the end of a sentence; empty if
-/// they can.
+/// The reason why the passes of a problem cannot be printed, as the end of a sentence. Empty if
+/// they can be printed.
 std::string reason_against_text(const StepProblem& problem);
 
 /// The whole program. A work-item computes `rows_of_item` rows of a column or, in WGSL, one cell. A
@@ -55,7 +55,7 @@ std::string reason_against_text(const StepProblem& problem);
 std::string problem_text(const StepProblem& problem, const TextTarget& target,
                          std::int64_t rows_of_item);
 
-/// The number of words of a call in WGSL.
+/// The number of words that a call passes in WGSL.
 std::size_t wgsl_call_words(const StepProblem& problem);
 
 /// The number of uniforms of all passes before this one.

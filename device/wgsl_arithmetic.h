@@ -179,8 +179,8 @@ fn c_product(a: u32, b: u32) -> u32 { return c_word(c_number(a) * c_number(b)); 
 fn c_field_word(c_w: u32) -> u32 { return c_w; }
 )";
 
-/// The same on a device that may flush or keep denormal results. A product just below the least
-/// normal number would be rounded up to it, so the product of larger operands decides.
+/// The same functions for a device that may flush or keep denormal results. A product just below
+/// the least normal number would be rounded up to it, so the product of larger operands decides.
 inline constexpr std::string_view flushed_by_kernel = R"(
 fn c_flush_sum(c_x: f32) -> u32 { return c_flush(c_word(c_x)); }
 fn c_product(a: u32, b: u32) -> u32 {

@@ -15,14 +15,14 @@ namespace cascade {
 
 /// Kernels in one program, named c_kernel_0 and so on, with separate planes and uniforms.
 struct WgslKernels {
-    /// The numbers of a kernel's first plane, mask and uniform. Its planes are its fields, then its
-    /// results.
+    /// The numbers of a kernel's first plane, mask and uniform. A kernel's planes are its fields,
+    /// followed by its results.
     struct Place {
         std::size_t plane = 0, mask = 0, uniform = 0;
     };
     std::string text;
     std::vector<Place> places;
-    Place end;  ///< The numbers of planes, masks and uniforms.
+    Place end;  ///< The numbers of planes, masks and uniforms of all kernels.
 };
 WgslKernels wgsl_kernels(std::span<const CellKernel* const> kernels, const Grid& grid,
                          Flushing flushing);

@@ -18,7 +18,7 @@ namespace cascade {
 
 /// One call of a kernel.
 struct WgslCall {
-    bool is_halo = false;  ///< The kernel belongs to the program of halos.
+    bool is_halo = false;  ///< Whether the kernel belongs to the program of halos.
     std::string kernel;
     std::vector<std::uint32_t> words;
     std::uint32_t groups_x = 1, groups_y = 1;  ///< The number of work-groups.
@@ -28,7 +28,7 @@ struct WgslCall {
 WgslCall call_of_plane(const PlaneLayout& layout);
 
 /// The reason why WebGPU cannot take the steps of a problem, as the end of a sentence. Empty if it
-/// can.
+/// can take them.
 std::string reason_against_wgsl(const StepProblem& problem);
 
 class WgslSteps {

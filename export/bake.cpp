@@ -1,5 +1,5 @@
 // Threads paint bands of rows of texels. Each texel is the mean of its samples in linear light.
-// Afterwards gaps are filled and colours stored.
+// Afterwards, gaps are filled and colours are converted to sRGB.
 #include "export/bake.h"
 
 #include "core/check.h"
@@ -36,8 +36,8 @@ tl::unexpected<Failure> no_area() {
 /// Working memory of one thread, allocated in advance.
 struct Scratch {
     std::unique_ptr<SamplePainter> painter;
-    std::vector<std::uint32_t> owners = {};     ///< One per sample of a band.
-    std::span<const std::uint32_t> row = {};    ///< The owners in a row of texels.
+    std::vector<std::uint32_t> owners = {};     ///< The triangle of each sample in a band.
+    std::span<const std::uint32_t> row = {};    ///< The part of `owners` for one row of texels.
     std::vector<Colour> lights = {};            ///< One per sample of a row of texels.
     std::vector<float> heights = {};            ///< One per sample of a row of texels.
     std::vector<OfParts<float>> material = {};  ///< One per sample of a row of texels.

@@ -19,23 +19,23 @@ struct BakeOptions {
     static constexpr std::int64_t largest_texture = 8192;
 };
 
-/// The baked maps. Normals are relative to the tangents of render_vertices().
+/// The baked maps. Their normals are relative to the tangents of render_vertices().
 struct Bake : MaterialMaps {
     double covered = 0;  ///< Fraction of the samples that are on the surface.
-    /// The fraction of the surface whose image in the texture overlaps the image of another part of
-    /// the surface.
+    /// The fraction of the surface that is painted over by another part of the surface in the
+    /// texture.
     double overlapping = 0;
     double shared = 0;  ///< Fraction of the samples that show several parts of the surface.
     std::vector<std::string> warnings;  ///< Each is one sentence.
 };
 
-/// The number of samples of the largest maps with the largest number of samples per texel.
+/// The number of samples of the largest maps with the default number of samples per texel.
 inline constexpr double most_samples =
     4.0 * BakeOptions::largest_texture * BakeOptions::largest_texture;
 
 /// Checks that the model has texture coordinates suitable for baking maps of this many samples.
-/// Fails, with a hint, if there are no coordinates, if they cover less of the texture than a
-/// sample, or if they cover it many times over, as coordinates for repeating textures do.
+/// Fails, with a hint, if there are no coordinates, if the surface covers less of the texture than
+/// one sample, or covers it many times over, as coordinates for repeating textures do.
 Result<void> check_bakeable(const SurfaceMesh& mesh, double samples = most_samples);
 
 /// Paints every texel with the mean, in linear light, of its samples on the surface. Extrapolates

@@ -27,8 +27,8 @@ struct CellResults {
 ///     weights  m     float64  length of the Voronoi edge / distance of the cells
 ///     colors   n × 3 float32  if there are any
 ///
-/// Each channel is an array of n × float32 under its name. If this is one of the names above, an
-/// underscore is added. A diffusion step is u_i += D dt / areas_i · Σ weights (u_j − u_i). Fails
+/// Each channel is an array of n × float32 under its name, to which an underscore is added if it is
+/// one of the names above. A diffusion step is u_i += D dt / areas_i · Σ weights (u_j − u_i). Fails
 /// above 4 GiB.
 Result<std::string> encode_npz(const SurfaceMesh& mesh, const SurfaceCells& cells,
                                const CellResults& results);
@@ -47,7 +47,8 @@ Result<std::string> encode_cells(const std::filesystem::path& path, const Cells&
     return failure("a file of cells has a name that ends in .npz or .vtp");
 }
 
-/// Writes encode_cells() atomically. Fails as encode_cells(), encode_npz and write_file do.
+/// Writes the bytes that encode_cells() returns, atomically. Fails as encode_cells(), encode_npz
+/// and write_file do.
 Result<void> write_cells(const std::filesystem::path& path, const SurfaceMesh& mesh,
                          const SurfaceCells& cells, const CellResults& results);
 

@@ -1,4 +1,5 @@
-// Adds underscores to names that are already in use. Clamps colours. NaN has its own colour.
+// Adds underscores to names that are already in use. Clamps colours, and replaces a colour with a
+// NaN by the colour that represents NaN.
 #include "export/channels.h"
 
 #include <algorithm>

@@ -20,7 +20,7 @@ using Channel = PointAttribute;
 std::vector<std::string> distinct_names(std::span<const Channel> channels,
                                         std::initializer_list<std::string_view> reserved);
 
-/// The colour with its channels clamped to 0 … 1. If a channel is NaN, the colour that represents
+/// The colour with its channels clamped to 0 … 1, or the colour that represents NaN if a channel is
 /// NaN.
 Colour shown(const Colour& colour);
 

@@ -13,7 +13,8 @@ namespace {
 /// The distance between knots, in radii of the filter. The error of linear interpolation is then
 /// below 1/255 of the range of the values.
 constexpr double knots_apart = 1.0 / 16;
-constexpr std::size_t most_steps = 64;  ///< The most samples from one knot to the next.
+/// The largest number of samples from one knot to the next.
+constexpr std::size_t most_steps = 64;
 
 }  // namespace
 
@@ -56,8 +57,8 @@ void FieldSamples::paint(const SampleRow& row) {
     }
 }
 
-/// The number of samples from one knot to the next, where neighbouring samples are as far apart as
-/// `one` and `other`.
+/// The number of samples from one knot to the next, if neighbouring samples are as far apart as the
+/// places `one` and `other`.
 std::size_t FieldSamples::steps_of(const SurfacePlace& one, const SurfacePlace& other) const {
     const double apart = length(position_of(mesh_, one) - position_of(mesh_, other));
     const double reach = knots_apart * filter_.radius();

@@ -7,7 +7,8 @@
 
 namespace cascade {
 
-/// Three numbers per texel, rows from the top, and which of the texels have values.
+/// A texture with three numbers per texel, in rows from the top. `is_filled` says which texels have
+/// values.
 struct PartialTexture {
     std::int64_t width = 0, height = 0;
     std::vector<std::array<float, 3>> texels;
@@ -22,11 +23,11 @@ struct PartialTexture {
 };
 
 /// Fills every texel without values so that it smoothly continues the texels around it.
-/// Interpolation and reduced copies of the picture then have no artefacts. Renderers mix texels at
-/// a distance of up to two with filled texels, so each of these is the mean of adjacent texels.
-/// Texels farther away are computed by the "pull-push" method of S. Gortler et al., "The Lumigraph"
-/// (SIGGRAPH 1996), section 3.4, which uses all surroundings. The picture repeats in all
-/// directions. If no texel has values, all stay 0.
+/// Interpolation and reduced copies of the picture then have no artefacts. Renderers mix filled
+/// texels with texels that are at most two texels away, so each texel that near becomes the mean of
+/// adjacent texels. Texels farther away are computed by the "pull-push" method of S. Gortler et
+/// al., "The Lumigraph" (SIGGRAPH 1996), section 3.4, which uses all surroundings. The picture
+/// repeats in all directions. If no texel has values, all stay 0.
 void fill_gaps(PartialTexture& texture);
 
 }  // namespace cascade

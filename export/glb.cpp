@@ -92,7 +92,7 @@ private:
         return level_of(light_of(shown(colours[vertices_.points[vertex]])[channel]), 65535);
     }
 
-    /// The differences of each moment from the mesh, as morph targets.
+    /// The morph targets: the differences between the mesh at each moment and the final mesh.
     Json targets() {
         Json targets = Json::array();
         const std::vector<Vector3d> normals = point_normals(mesh_);
@@ -171,8 +171,8 @@ private:
         return result;
     }
 
-    /// Sets the factors of the material, by which the map is multiplied. For a part that is not in
-    /// the map, the map is 1, so the factor is the value of the part.
+    /// Sets the factors of the material, which multiply the values of the map. A part that is not
+    /// in the map has the value 1 there, so its factor is the value of the part.
     void add_surface(Json& material) {
         const std::size_t texture = add_picture(look_.surface_map);
         if (look_.has.occlusion) material["occlusionTexture"] = {{"index", texture}};

@@ -1,4 +1,5 @@
-// A header of 12 bytes, then a chunk of JSON and a chunk with the buffer, each padded to 4 bytes.
+// A file is a header of 12 bytes, a chunk of JSON and a chunk with the buffer. Each chunk is padded
+// to a multiple of 4 bytes.
 #include "export/glb_file.h"
 
 #include "export/channels.h"
@@ -48,7 +49,7 @@ std::size_t GlbFile::add(const char* list, Json part) {
 
 std::size_t GlbFile::add_node(Json node, bool is_in_scene) {
     if (!(origin_ == Vector3d{})) node["translation"] = {origin_.x, origin_.y, origin_.z};
-    const std::size_t number = add("nodes", std::move(node));  // May move the lists in memory.
+    const std::size_t number = add("nodes", std::move(node));  // This may move the lists in memory.
     if (is_in_scene) file_["scenes"][0]["nodes"].push_back(number);
     return number;
 }

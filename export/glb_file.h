@@ -24,18 +24,19 @@ class GlbFile {
 public:
     using Json = nlohmann::ordered_json;
 
-    // The codes by which the format denotes these types.
+    // The format's codes for buffers and for the wrapping of textures.
     static constexpr int vertex_buffer = 34962, index_buffer = 34963;
     static constexpr int wrap_repeat = 10497, wrap_clamp = 33071;
 
-    /// Begins without parts. The file has one scene. All nodes are moved by `origin`.
+    /// Begins a file without parts. It has one scene, and `origin` is added to the position of
+    /// every node.
     explicit GlbFile(Vector3d origin = {});
 
     /// Appends a part to a list and returns its number. Lists are "nodes", "meshes", "materials",
     /// "images", "textures", "samplers" and "animations".
     std::size_t add(const char* list, Json part);
-    /// Adds a node, and moves it by the origin. If the node is not in the scene, another node must
-    /// refer to it.
+    /// Adds a node, moved by the origin. If the node is not in the scene, another node must refer
+    /// to it.
     std::size_t add_node(Json node, bool is_in_scene = true);
     /// Declares the use of an extension that readers may ignore.
     void use(const char* extension);
@@ -55,8 +56,8 @@ public:
     }
 
     /// Adds an accessor of `count` elements of a shape such as "VEC3". `number(k, c)` gives
-    /// component c of element k. Its type is also the type of numbers in the file. Integers
-    /// represent fractions of their largest value.
+    /// component c of element k. The file stores numbers in the type `Number`. Integers represent
+    /// fractions of their largest value.
     template <typename Number, typename Take>
     std::size_t add_numbers(int target, std::string_view shape, std::size_t count,
                             const Take& number) {
@@ -77,8 +78,8 @@ public:
         return accessors_.size() - 1;
     }
 
-    /// Adds positions of vertices relative to the origin, with their bounds. `place(k)` is in
-    /// double precision.
+    /// Adds positions of vertices with their bounds. `place(k)` is the absolute position in double
+    /// precision. The file holds positions relative to the origin.
     template <typename Take>
     std::size_t add_places(std::size_t count, const Take& place) {
         return add_bounded(vertex_buffer, "VEC3", count, [&](std::size_t k, std::size_t c) {
@@ -143,7 +144,7 @@ private:
 
 /// The origin of a file's coordinates: 0 if binary32 represents all coordinates exactly, otherwise
 /// the middle of their range. `low` and `high` bound all points of the file. Fails if binary32
-/// cannot represent the size.
+/// cannot represent the size of the model.
 Result<Vector3d> origin_of_glb(std::span<const Vector3d> points, Vector3d low, Vector3d high);
 
 /// A non-metallic material of this roughness.

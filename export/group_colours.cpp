@@ -54,9 +54,9 @@ ColourGroups group_colours(std::span<const Colour> colours, std::size_t most) {
             std::stable_partition(numbers.begin() + static_cast<std::ptrdiff_t>(whole.begin),
                                   numbers.begin() + static_cast<std::ptrdiff_t>(whole.end),
                                   [&](std::uint32_t number) {
-                                      // Never true for all colours of the group. The second
-                                      // condition matters if rounding has moved the middle to the
-                                      // highest colour.
+                                      // This condition is never true for all colours of the group.
+                                      // Its second half matters if rounding has moved the middle to
+                                      // the highest colour.
                                       return colours[number][whole.channel] <= middle &&
                                              colours[number][whole.channel] < whole.high;
                                   });

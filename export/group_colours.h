@@ -9,10 +9,10 @@
 
 namespace cascade {
 
-/// Groups of similar colours.
+/// Similar colours form a group, which is represented by its mean colour.
 struct ColourGroups {
     std::vector<Colour> means;
-    std::vector<std::uint32_t> group;  ///< The group of each colour.
+    std::vector<std::uint32_t> group;  ///< The index of each colour's group.
 };
 
 /// Groups colours by median cut: P. Heckbert, "Color Image Quantization for Frame Buffer Display",

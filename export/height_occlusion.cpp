@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t directions = 16;
 constexpr double least_rise = 0.02;
-/// The length of a step, relative to the distance. The first steps are one cell long.
+/// The length of a step, relative to the distance from the cell. The first steps are one cell long.
 constexpr double step_part = 0.125;
 
 class Horizon {

@@ -26,7 +26,7 @@ namespace {
 
 using Json = GlbFile::Json;
 
-constexpr float roughness = 0.6F;  ///< Equal to the roughness of models.
+constexpr float roughness = 0.6F;  ///< Equal to the default of GlbLook::roughness.
 
 double component(const Quaternion& q, std::size_t c) {
     // In glTF, the real part is last.
@@ -128,7 +128,7 @@ void add_copies(const Instances& copies, GlbFile& file) {
         material["pbrMetallicRoughness"]["baseColorFactor"] = {light[0], light[1], light[2], 1.0};
         materials.push_back(file.add("materials", std::move(material)));
     }
-    // By mesh and material: the copies in the node.
+    // The copies of each node, by their mesh and material.
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<const Placement*>> nodes;
     for (std::size_t k = 0; k < copies.placements.size(); ++k) {
         const Placement& placement = copies.placements[k];

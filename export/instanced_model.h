@@ -29,18 +29,18 @@ struct InstancedModel {
 /// attribute `_COLOR_0`, linear light by which they multiply the material's colour. For all other
 /// programs, copies of similar colours share one of at most `most_copy_materials` materials, which
 /// has their mean colour. `_COLOR_0` is a copy's light divided by its material's light. So programs
-/// that read `_COLOR_0` show each colour exactly. The others show an approximation, which is exact
-/// if there are at most `most_copy_materials` colours.
+/// that read `_COLOR_0` show each colour exactly. Other programs show approximate colours, or exact
+/// ones if there are at most `most_copy_materials` colours.
 Result<std::string> encode_instanced_glb(const InstancedModel& model);
 inline constexpr std::size_t most_copy_materials = 32;
 
-/// The most triangles that merged copies may have.
+/// The largest number of triangles of merged copies.
 inline constexpr std::uint64_t most_merged_triangles = std::uint64_t{1} << 24;
 
 /// All copies as plain triangles, for programs that do not support instances.
 struct MergedCopies {
     std::vector<Vector3d> points;
-    std::vector<Vector3> normals;  ///< One per point, as colours are.
+    std::vector<Vector3> normals;  ///< One per point. `colours` has one per point, too.
     std::vector<Colour> colours;   ///< sRGB, darkened by the shades.
     std::vector<std::array<std::uint32_t, 3>> triangles;
 };

@@ -9,8 +9,8 @@
 
 namespace cascade {
 
-/// A fine surface with a pattern, whose simplified versions are painted. The arguments must outlive
-/// it. Thread-safe.
+/// A fine surface with a pattern that is painted on simplified versions of the surface. The
+/// arguments must outlive the object. Thread-safe.
 class FineSurface {
 public:
     /// The cells are on `mesh`. `displaced` is null, or the same surface raised by the heights of
@@ -21,8 +21,8 @@ public:
     PlacePainter painter() const { return {filter_, cells_}; }
     const PaintedCells& cells() const { return cells_; }
 
-    /// The position on `mesh` that belongs to the point of the surface nearest to `point`. If the
-    /// surface is raised, the nearest point of the raised surface counts.
+    /// The position on `mesh` that corresponds to the point of the surface (of the raised surface,
+    /// if there is one) nearest to `point`.
     SurfacePlace place_near(Vector3d point) const;
     /// The normal at place_near(). If the surface is not raised by heights, `painter` adds the
     /// heights as bumps.
@@ -39,8 +39,8 @@ private:
     const PaintedCells& cells_;
     const RefinedMesh* displaced_;
     NearestPlace on_shape_;
-    CornerNormals
-        normals_;  ///< Normals of the raised surface, if there is one, otherwise of `mesh`.
+    /// Normals of the raised surface, if there is one, otherwise of `mesh`.
+    CornerNormals normals_;
 };
 
 /// Paints samples of a simplified surface. Each sample gets the colour, the material and the

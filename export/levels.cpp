@@ -92,7 +92,7 @@ Result<std::vector<ModelLevel>> levels_of(ModelLevel finest, int count, double p
                                    {finer.colours, pattern_length}, cancel);
         if (!simplified) return tl::unexpected(simplified.error());
         // If simplification could not remove enough triangles, because the topology needs nearly
-        // all of them, there are no coarser levels.
+        // all of them, this is the last level.
         if (2 * simplified->mesh.triangles.size() > triangles) break;
         levels.push_back(level_below(finer, *std::move(simplified)));
     }

@@ -24,17 +24,17 @@ struct ModelLevel {
 };
 
 /// The finest level and coarser ones, each made from the previous one. `count` is the number of all
-/// levels. There are fewer if no more triangles can be removed. The points of all levels are points
-/// of the finest level. Triangles follow edges of the pattern: a difference of black and white
-/// counts as much as a distance of `pattern_length`. The colour (in linear light) and the numbers
-/// of a point are the means, weighted by area, over the points that have merged into it, so that
-/// details too small to be visible fade (G. Turk, "Texturing Surfaces Using Reaction-Diffusion",
-/// thesis, 1992, section 5.4). Fails as simplify() does. Throws std::bad_alloc. The result is
-/// meaningless if `cancel` became true.
+/// levels. There are fewer levels if no more triangles can be removed. The points of all levels are
+/// points of the finest level. Triangles follow edges of the pattern, because the difference
+/// between black and white counts as much as a distance of `pattern_length`. The colour (in linear
+/// light) and the numbers of a point are the means, weighted by area, over the points that have
+/// merged into it, so that details too small to be visible fade (G. Turk, "Texturing Surfaces Using
+/// Reaction-Diffusion", thesis, 1992, section 5.4). Fails as simplify() does. Throws
+/// std::bad_alloc. The result is meaningless if `cancel` became true.
 Result<std::vector<ModelLevel>> levels_of(ModelLevel finest, int count, double pattern_length,
                                           const std::atomic<bool>& cancel);
 
-/// "horse.ply" itself for level 0, "horse_lod1.ply" for level 1.
+/// The file of a level: "horse.ply" itself for level 0, "horse_lod1.ply" for level 1.
 std::filesystem::path path_of_level(const std::filesystem::path& path, std::size_t level);
 
 /// Writes each level to its own file by write_model(). In GLB format, the file of the finest level

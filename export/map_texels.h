@@ -9,8 +9,8 @@
 
 namespace cascade {
 
-/// Stores heights as greys, from black to white over the range. If the range has no width, stores
-/// ½.
+/// Stores heights as greys, from black at the lower end of the range to white at the upper end. If
+/// both ends are equal, stores ½.
 inline void store_heights(ValueRange range, std::span<Colour> texels) {
     const double low = static_cast<double>(range.low);
     const double width = static_cast<double>(range.high) - low;
@@ -20,7 +20,7 @@ inline void store_heights(ValueRange range, std::span<Colour> texels) {
     }
 }
 
-/// A direction of length 1 as a colour. −1 … 1 is stored as 0 … 1.
+/// A direction of length 1 as a colour. Components from −1 to 1 are stored as 0 to 1.
 inline Colour stored_direction(const Vector3& direction) {
     const auto stored = [](float part) { return std::clamp(0.5F + 0.5F * part, 0.0F, 1.0F); };
     return {stored(direction.x), stored(direction.y), stored(direction.z)};

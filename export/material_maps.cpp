@@ -21,7 +21,7 @@ namespace cascade {
 
 namespace {
 
-/// The file of one map, inside the GLB file or next to it.
+/// A file with one map, inside the GLB file or next to it.
 struct MapFile {
     const Image* image = nullptr;
     PngDepth depth = PngDepth::eight;
@@ -115,8 +115,8 @@ SideFiles side_files(const MaterialMaps& maps, const MapSet& which) {
     return beside;
 }
 
-/// The maps of one level inside a GLB file. They have 8 bits, which all viewers of GLB files
-/// support.
+/// The maps of one level inside a GLB file. They have 8 bits per channel, which all viewers of GLB
+/// files support.
 class MapsInside {
 public:
     MapsInside(const MaterialMaps& maps, const PngTexts& texts) : maps_(maps), texts_(texts) {}
@@ -158,7 +158,8 @@ private:
 
 Result<std::string> encode_models(std::span<const MappedModel> levels, const PngTexts& texts,
                                   const std::string& plain_colours) {
-    std::deque<MapsInside> inside;  // Each GlbLook refers to the bytes in one of these.
+    // The maps of each level, to whose bytes the level's GlbLook refers.
+    std::deque<MapsInside> inside;
     std::vector<GlbLevel> models;
     for (const MappedModel& level : levels) {
         MapsInside& maps = inside.emplace_back(level.maps, texts);

@@ -21,7 +21,8 @@ struct MaterialMaps {
     /// value in the range `heights`.
     Image relief;
     ValueRange heights;
-    /// Directions relative to the tangents, with y upwards. −1 … 1 is stored as 0 … 1.
+    /// Directions relative to the tangents, with y upwards. Components from −1 to 1 are stored as 0
+    /// to 1.
     Image normals;
     /// Occlusion in red, roughness in green and metalness in blue, as in glTF. A channel is 1 if
     /// `maps` does not contain its part.

@@ -26,7 +26,7 @@ struct PointResults {
 std::string encode_ply(const SurfaceMesh& mesh, const PointResults& results);
 
 /// Wavefront OBJ as text. Colours follow the position in `v`, as MeshLab and Blender read them.
-/// Numbers have the fewest digits that read back exactly. Channels cannot be represented.
+/// Numbers have the fewest digits that read back exactly. The format has no place for channels.
 std::string encode_obj(const SurfaceMesh& mesh, const PointResults& results);
 
 /// VTK's XML PolyData with one appended raw block (The VTK User's Guide, 11th edition, Kitware

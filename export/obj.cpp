@@ -44,7 +44,8 @@ void ObjText::add(const SurfaceMesh& mesh, const PointResults& results) {
             texture.push_back(entry->second);
         }
     }
-    text_ += "s 1\n";  // Marks faces as smooth, because some programs use normals only then.
+    text_ +=
+        "s 1\n";  // Marks faces as smooth, because some programs ignore the normals of other faces.
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         text_ += 'f';
         for (std::size_t k = 0; k < 3; ++k) {
@@ -61,8 +62,8 @@ void ObjText::add(const SurfaceMesh& mesh, const PointResults& results) {
 
 namespace {
 
-/// The number of digits of coordinates. It is chosen so that nine digits remain relative to the
-/// model's size, however far from the origin the model is.
+/// The number of digits of coordinates. Nine digits remain relative to the model's size, however
+/// far from the origin the model is.
 int digits_of(std::span<const Vector3d> points) {
     constexpr int usual = 9, all = 17;
     if (points.empty()) return usual;

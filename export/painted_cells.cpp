@@ -1,5 +1,5 @@
-// Filters the values of nearby cells (surface/cell_filter), then computes a colour from the result.
-// So values are blended and not colours.
+// Filters the values of nearby cells (surface/cell_filter), then computes a colour from the
+// filtered values. So values are blended, not colours.
 #include "export/painted_cells.h"
 
 #include "export/channels.h"

@@ -35,7 +35,7 @@ struct PaintedCells {
     MaterialCells material = {};
     bool displaces = false;  ///< Whether heights displace the surface in pictures.
     ValueColours colours =
-        {};  ///< A faster way to compute the colours of many points. May be empty.
+        {};  ///< A faster way to compute the colours of many points, if there is one.
 };
 
 /// Paints points of the surface. Not thread-safe.
@@ -46,7 +46,7 @@ public:
     struct Look {
         Colour colour;
         float height = 0;
-        OfParts<float> material{};  ///< Set for the parts that the cells have.
+        OfParts<float> material{};  ///< Only the parts that the cells have are set.
     };
     /// The filtered height and material at a point, and the colour of the filtered values.
     Look at(const SurfacePlace& place);
@@ -57,7 +57,7 @@ public:
     Look look_of(std::span<const float> values, const SurfacePlace& place) const;
     std::size_t number_of_values() const { return cells_.channels + parts_.size() + 1; }
 
-    /// The gradient of the height at a point, in the plane of the triangle. Exactly 0 if all
+    /// The gradient of the height at a point, in the plane of its triangle. Exactly 0 if all
     /// heights around the point are equal.
     Vector3d rise_at(const SurfacePlace& place);
 

@@ -31,8 +31,8 @@ struct PlacedCells {
 ///     radii   n     float64
 ///     colors  n × 3 float32  if there are any
 ///
-/// Each channel is an array of n × float32 under its name. If this is one of the names above, an
-/// underscore is added. Fails above 4 GiB.
+/// Each channel is an array of n × float32 under its name, to which an underscore is added if it is
+/// one of the names above. Fails above 4 GiB.
 Result<std::string> encode_npz(const PlacedCells& cells);
 
 /// VTK's XML PolyData. Each cell is a vertex at its position. Point data are the y axis of its
@@ -40,7 +40,8 @@ Result<std::string> encode_npz(const PlacedCells& cells);
 /// as `color`, and the channels.
 std::string encode_vtp(const PlacedCells& cells);
 
-/// Writes encode_cells() atomically. Fails as encode_cells(), encode_npz and write_file do.
+/// Writes the bytes that encode_cells() returns, atomically. Fails as encode_cells(), encode_npz
+/// and write_file do.
 Result<void> write_cells(const std::filesystem::path& path, const PlacedCells& cells);
 
 }  // namespace cascade

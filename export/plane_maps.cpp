@@ -60,8 +60,8 @@ WITH_WIDE_VECTORS void blend_columns(const float* cells, const float* slopes,
     }
 }
 
-/// The values of a plane's cells: the channels of colours, the given parts of the material, and the
-/// height, if there is one. Interpolates them to one row of samples at a time.
+/// The values of a plane's cells: the channels of colours, those parts of the material that are
+/// given, and the height, if there is one. Interpolates them for one row of samples at a time.
 class CellValues {
 public:
     CellValues(const FlatCells& cells, const PaintedCells& painted)
@@ -82,8 +82,8 @@ public:
     std::size_t size() const { return values_.size(); }
     std::span<const MaterialPart> parts() const { return parts_; }
 
-    /// Writes value k of all columns, interpolated between two rows of cells, to `line`, which has
-    /// `margin` more cells at both ends.
+    /// Interpolates value k of all columns between two rows of cells, and writes the results to
+    /// `line`. The line has `margin` more cells at both ends.
     void row_at(std::size_t k, const SamplePlace& down, std::span<float> line) const {
         std::array<const float*, cells_between> rows{};
         for (std::size_t n = 0; n < rows.size(); ++n) {
@@ -112,8 +112,8 @@ private:
         for (std::size_t cell = 0; cell < cells_.count(); ++cell) values_[k][cell] = take(cell);
     }
 
-    /// Replaces value k by values from the surroundings, in cells outside the domain and where
-    /// heights are not finite. Opacity is an exception: it is 0 outside the domain.
+    /// Replaces value k in cells outside the domain, and heights that are not finite, by values
+    /// from the surroundings. Opacity is an exception: it is 0 outside the domain.
     void fill(std::size_t k) {
         const bool is_height = has_heights_ && k + 1 == size();
         const bool is_opacity =
@@ -289,7 +289,7 @@ private:
 
     template <typename Use>
     void in_rows(Team& team, const Use& use) {
-        std::vector<RowPainter> painters;  // Made here, because threads must not run out of memory.
+        std::vector<RowPainter> painters;  // Made here, so that threads allocate no memory.
         for (int k = 0; k < team.size(); ++k) painters.emplace_back(*this);
         std::atomic<std::int64_t> next = 0;
         team.run([&](int thread) {
@@ -333,7 +333,7 @@ private:
             return std::array{FlatCells::place(k - 1, count, repeats),
                               FlatCells::place(k + 1, count, repeats)};
         };
-        // At a side where the texture does not repeat, one of the two is the texel itself.
+        // At a side where the texture ends, one of the two neighbours is the texel itself.
         const auto apart = [](std::int64_t k, std::int64_t count, bool repeats, double side) {
             const bool is_at_side = !repeats && count > 1 && (k == 0 || k == count - 1);
             return is_at_side ? side : 2 * side;
@@ -358,10 +358,10 @@ private:
     const PaintedCells& painted_;
     CellValues values_;
     std::int64_t samples_ = 2;  ///< Samples per texel along each axis.
-    /// For each sample of a row: 1 + the index of the cell before it. That index may be −1, so that
-    /// 0 is stored.
+    /// For each sample of a row, the index of the last cell before the sample, plus 1 because that
+    /// index may be −1.
     std::vector<std::int32_t> before_;
-    std::vector<float> parts_;  ///< The fraction of the way from that cell to the next.
+    std::vector<float> parts_;  ///< The fraction of the way from that cell to the next one.
     MaterialMaps maps_;
 };
 

@@ -19,10 +19,10 @@ using Weights = std::array<double, 3>;
 /// of its edge k.
 using Part = std::array<std::uint32_t, 3>;
 
-/// The parts of a triangle, given its halved edges. With two halved edges, the corner between them
-/// is cut off, and the remaining quadrilateral is split along a diagonal. If `is_first_shorter`,
-/// the diagonal begins at the corner before the first halved edge, otherwise at the corner after
-/// the second.
+/// Divides a triangle, some of whose edges are halved, into parts. With two halved edges, the
+/// corner between them is cut off, and the remaining quadrilateral is split along a diagonal. If
+/// `is_first_shorter`, the diagonal begins at the corner before the first halved edge, otherwise at
+/// the corner after the second.
 std::vector<Part> parts_of(const std::array<bool, 3>& is_halved, bool is_first_shorter) {
     const int count = is_halved[0] + is_halved[1] + is_halved[2];
     if (count == 0) return {{0, 1, 2}};
@@ -35,7 +35,7 @@ std::vector<Part> parts_of(const std::array<bool, 3>& is_halved, bool is_first_s
     return {{3 + a, b, 3 + b}, {a, 3 + a, c}, {3 + a, 3 + b, c}};
 }
 
-/// Triangles with their positions in the original mesh.
+/// The triangles of the refined mesh, with their positions in the original mesh.
 class Refiner {
 public:
     explicit Refiner(const SurfaceMesh& mesh)
@@ -132,8 +132,8 @@ private:
         std::vector<Triangle> triangles;
         std::vector<TriangleOrigin> origins;
         std::vector<std::array<TriangleEdge, 3>> across;
-        // By edge: its pieces. If the edge is halved, these are its first and its second half,
-        // otherwise there is one piece.
+        // The pieces of each edge of the old triangles: both halves of a halved edge, or a single
+        // piece.
         std::vector<std::array<std::array<TriangleEdge, 2>, 3>> pieces(triangles_.size());
         for (std::size_t t = 0; t < triangles_.size(); ++t) {
             const auto first = static_cast<std::uint32_t>(triangles.size());
@@ -204,7 +204,9 @@ private:
             for (std::uint32_t k = 0; k < 3; ++k) {
                 const std::uint32_t from = parts[p][k], to = parts[p][corner_after(k)];
                 if (const auto beyond = find(to, from)) across[first + p][k] = *beyond;
-                else pieces[from % 3][from < 3 ? 0 : 1] = {first + p, k};  // 0: a whole edge.
+                else
+                    pieces[from % 3][from < 3 ? 0 : 1] = {first + p,
+                                                          k};  // A whole edge is piece 0.
             }
         }
     }

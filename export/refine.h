@@ -14,10 +14,11 @@ namespace cascade {
 /// The part of a triangle of the original mesh that a triangle of the refined mesh covers.
 struct TriangleOrigin {
     std::uint32_t triangle = 0;
-    /// For each corner of the refined triangle: its weights of the original triangle's corners.
+    /// The weights of the original triangle's corners at each corner of the refined triangle.
     std::array<std::array<double, 3>, 3> corners;
 
-    /// A position on the original mesh, given by weights of the refined triangle's corners.
+    /// The position on the original mesh that has the given weights of the refined triangle's
+    /// corners.
     SurfacePlace at(const std::array<double, 3>& weights) const {
         SurfacePlace place{triangle, {}};
         for (std::size_t k = 0; k < 3; ++k) {

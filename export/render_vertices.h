@@ -20,21 +20,23 @@ struct Tangent {
 };
 
 struct RenderVertices {
-    /// For each vertex, its point of the mesh. In ascending order. Each point occurs at least once.
+    /// The point of the mesh to which each vertex belongs, in ascending order. Each point occurs at
+    /// least once.
     std::vector<std::uint32_t> points;
-    std::vector<Vector3d> normals;      ///< One per vertex, of length 1.
-    std::vector<TexturePlace> texture;  ///< Finite; empty if the mesh has none.
+    std::vector<Vector3d> normals;  ///< One per vertex, of length 1.
+    /// Finite numbers. Empty if the mesh has no texture coordinates.
+    std::vector<TexturePlace> texture;
     /// One tangent per vertex. Empty if the mesh has no texture coordinates.
     std::vector<Tangent> tangents;
-    /// The triangles of the mesh, in its order.
+    /// The corners of the mesh's triangles, as indices of vertices, in the order of the mesh.
     std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
 /// Makes vertices from the corners of a mesh. Without texture coordinates, a point has one vertex
 /// for each normal. With them, it has one for each combination of normal, texture coordinates and
-/// side. The tangent of a vertex is the sum over its triangles, weighted by their angles there (as
-/// in M. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008). Coordinates that are not
-/// finite become 0.
+/// side. The tangent of a vertex is the mean of its triangles' tangents, weighted by their angles
+/// at the vertex (as in M. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008). Texture
+/// coordinates that are not finite become 0.
 RenderVertices render_vertices(const SurfaceMesh& mesh, const CornerNormals& normals);
 
 }  // namespace cascade

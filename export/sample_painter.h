@@ -12,8 +12,8 @@
 
 namespace cascade {
 
-/// Consecutive samples of a texture's row that are in one triangle, and the memory for the results
-/// of painting them.
+/// Consecutive samples in a row of the texture, all in one triangle, and the memory for their
+/// painted values.
 struct SampleRow {
     const TextureLayout& layout;
     std::uint32_t triangle = 0;
@@ -44,8 +44,8 @@ public:
     virtual void paint(const SampleRow& row) = 0;
 
     /// A vector, of any length, along the normal of the surface raised by the heights. `samples`
-    /// are the samples of one texel, at least one. `normal` is the normal of the unraised surface
-    /// at their middle.
+    /// are samples of one texel, of which there is at least one. `normal` is the normal of the
+    /// unraised surface at their middle.
     virtual Vector3d raised_normal(std::span<const SurfacePlace> samples,
                                    const Vector3d& normal) = 0;
 };

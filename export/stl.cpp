@@ -12,7 +12,7 @@ namespace cascade {
 
 namespace {
 
-/// The largest rounding error of coordinates, as a fraction of a usual edge of the triangles.
+/// The largest rounding error of coordinates, as a fraction of a typical edge length.
 constexpr double most_rounding = 1e-3;
 
 }  // namespace
@@ -30,7 +30,7 @@ Vector3d stl_origin(const SurfaceMesh& mesh) {
 
 std::string encode_stl(const SurfaceMesh& mesh, Vector3d origin) {
     constexpr std::size_t size_of_head = 80, size_of_triangle = 50;
-    // The header must not begin with "solid", because text files do.
+    // The header must not begin with "solid", because text files begin with this word.
     std::string bytes = "binary STL, Cascade";
     bytes.resize(size_of_head, ' ');
     bytes.reserve(size_of_head + 4 + size_of_triangle * mesh.triangles.size());

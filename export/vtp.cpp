@@ -15,7 +15,7 @@ namespace cascade {
 
 namespace {
 
-/// Builds the header and the block after it.
+/// Builds the header and the block of arrays that follows it.
 class VtpFile {
 public:
     explicit VtpFile(const VtpPoints& points) : points_(points) {}

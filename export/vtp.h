@@ -16,10 +16,11 @@ namespace cascade {
 struct VtpPoints {
     std::span<const Vector3d> places;
     std::span<const Vector3d> normals;
-    std::span<const Colour> colours;     ///< May be empty.
-    std::span<const double> areas;       ///< Per cell. May be empty.
-    std::span<const double> radii;       ///< Per cell. May be empty.
-    std::span<const Quaternion> frames;  ///< Per cell, written as `frame`, w first. May be empty.
+    std::span<const Colour> colours;  ///< May be empty.
+    std::span<const double> areas;    ///< One per cell. May be empty.
+    std::span<const double> radii;    ///< One per cell. May be empty.
+    /// One per cell, written as `frame`, w first. May be empty.
+    std::span<const Quaternion> frames;
     std::span<const Channel> channels;
     /// The triangles between the points. If empty, each point is a vertex.
     std::span<const std::array<std::uint32_t, 3>> triangles;

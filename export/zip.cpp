@@ -1,4 +1,4 @@
-// All dates are the same, so that equal cells give equal bytes.
+// All entries have the same date, so that equal cells give equal bytes.
 #include "export/zip.h"
 
 #include "picture/float_bytes.h"
@@ -23,13 +23,14 @@ void append32(std::string& bytes, std::size_t number) {
     append_number(bytes, static_cast<std::uint32_t>(number));
 }
 
-/// The description of an entry, both before it and in the directory at the end.
+/// The description of an entry, which is written both before the entry and in the directory at the
+/// end.
 std::string description_of(const ZipEntry& entry) {
     const std::size_t checksum = libdeflate_crc32(0, entry.bytes.data(), entry.bytes.size());
     std::string bytes;
     append16(bytes, version_needed);
     append16(bytes, names_are_utf8);
-    append16(bytes, 0);  // Method: stored.
+    append16(bytes, 0);  // Method: no compression.
     append16(bytes, 0);  // Time: midnight.
     append16(bytes, first_date);
     append32(bytes, checksum);
@@ -46,8 +47,8 @@ std::string directory_entry(const ZipEntry& entry, std::size_t begin) {
     bytes += description_of(entry);
     append16(bytes, 0);  // Length of the comment.
     append16(bytes, 0);  // Number of the disk.
-    append16(bytes, 0);  // Bytes, not text.
-    append32(bytes, 0);  // Attributes of a file system.
+    append16(bytes, 0);  // Content: bytes, not text.
+    append32(bytes, 0);  // Attributes of the file.
     append32(bytes, begin);
     return bytes + entry.name;
 }
@@ -76,7 +77,7 @@ Result<std::string> encode_zip(std::span<const ZipEntry> entries) {
     }
     const std::size_t directory_begin = bytes.size();
     bytes += directory + "PK\x05\x06";
-    append32(bytes, 0);  // Numbers of this disk and of the first.
+    append32(bytes, 0);  // Numbers of this disk and of the first disk.
     append16(bytes, entries.size());
     append16(bytes, entries.size());
     append32(bytes, directory.size());

@@ -23,7 +23,7 @@ public:
     ApngWriter(std::unique_ptr<GrowingFile> file, const FilmSettings& settings)
         : file_(std::move(file)), times_(settings.frames_per_second, apng_ticks_per_second) {}
 
-    /// Writes everything that precedes the first frame.
+    /// Writes what precedes the first frame.
     Result<void> begin(std::int64_t width, std::int64_t height, const PngTexts& texts) {
         std::string header(png_signature), size;
         append_big_endian(size, static_cast<std::size_t>(width));

@@ -36,8 +36,9 @@ class ChildProcess {
 public:
     struct End {
         bool is_good = false;  ///< Whether the process read all input and then ended with status 0.
-        std::string last_words;  ///< The last line that the process wrote to standard error. If
-                                 ///< there is none, a description of how it ended.
+        /// The last line that the process wrote to standard error. If there is none, a description
+        /// of how it ended.
+        std::string last_words;
     };
 
     static Result<std::unique_ptr<ChildProcess>> start(const std::filesystem::path& program,
@@ -49,8 +50,8 @@ public:
 
     /// Writes to the standard input of the process. Returns false if the process no longer reads.
     bool write(std::string_view bytes);
-    /// Closes the input of the process and waits until the process ends. Kills it after the limits
-    /// of Patience.
+    /// Closes the input of the process and waits until the process ends. Kills the process when the
+    /// limits of Patience are exceeded.
     End end();
 
 private:
@@ -66,7 +67,7 @@ private:
     void give_up();
 
     Patience patience_;
-    /// When the process last read bytes, and when it last computed.
+    /// The times at which the process last read bytes and last computed.
     Clock::time_point taken_at_, active_at_;
     std::chrono::nanoseconds computed_{0};  ///< The processor time of the process at active_at_.
     bool is_given_up_ = false;

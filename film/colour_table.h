@@ -41,7 +41,7 @@ public:
 
 private:
     std::vector<PackedColour> table_;
-    /// For each colour, 1 + its index in the table, or 0 if the index is not known yet.
+    /// For each colour, its index in the table plus 1, or 0 if the index is not known yet.
     std::vector<std::uint16_t> known_;
 };
 

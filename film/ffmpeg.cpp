@@ -59,7 +59,7 @@ std::vector<std::string> arguments(const Stream& stream) {
         stream.has_alpha ? "rgba" : "rgb24", "-video_size",
         fmt::format("{}x{}", stream.width, stream.height), "-framerate",
         fmt::format("{:.6f}", stream.frames_per_second), "-i", "pipe:0",
-        // Players use the colour matrix of HDTV if the file says so. The transfer curve is sRGB.
+        // Players use the colour matrix of HDTV if the file names it. The transfer curve is sRGB's.
         "-vf",
         fmt::format("scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int,"
                     "format={}",
@@ -136,7 +136,7 @@ private:
         }
     }
 
-    /// How ffmpeg has ended after its last input.
+    /// Waits until ffmpeg has ended, and returns whether it succeeded.
     Result<void> outcome() {
         const ChildProcess::End end = process_->end();
         return end.is_good ? Result<void>() : failed(end.last_words);

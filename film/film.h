@@ -48,15 +48,15 @@ Result<void> check_film(const std::filesystem::path& path);
 /// Checks whether players can show this many frames per second.
 Result<void> check_pace(const std::filesystem::path& path, double frames_per_second);
 
-/// Checks whether the format allows frames of this size. If ffmpeg writes the format, it encodes
-/// one frame as a test. Fails if `cancel` is set.
+/// Checks whether the format allows frames of this size. If ffmpeg writes the format, one frame is
+/// encoded as a test. Fails if `cancel` is set.
 Result<void> check_film_size(const std::filesystem::path& path, std::int64_t width,
                              std::int64_t height,
                              const std::atomic<bool>& cancel = never_cancelled);
 
 /// Begins a film whose frames have the size of the samples. There must be at least one sample. A
-/// GIF has 256 colours, which are chosen from the samples. So these should come from the whole
-/// film. Colours then stay constant from frame to frame.
+/// GIF has 256 colours, which are chosen from the samples. If the samples come from the whole film,
+/// colours stay constant from frame to frame.
 Result<std::unique_ptr<FilmWriter>> begin_film(const std::filesystem::path& path,
                                                const FilmSettings& settings,
                                                std::span<const FilmFrame> samples);

@@ -44,7 +44,7 @@ struct FramePart {
 inline FramePart whole_of(const FilmFrame& frame) { return {0, 0, frame.width, frame.height}; }
 
 /// The smallest rectangle that contains all differences between two frames of the same size. If the
-/// frames are equal, the first pixel, because films cannot contain empty pictures.
+/// frames are equal, this is the first pixel, because films cannot contain empty pictures.
 FramePart changed_part(const FilmFrame& before, const FilmFrame& now);
 
 }  // namespace cascade

@@ -107,8 +107,8 @@ private:
 
     using OwnColours = std::optional<std::vector<PackedColour>>;
 
-    /// The colours of a frame as its own table, if they are few and the film's table lacks some of
-    /// them. Otherwise empty.
+    /// The colours of a frame that gets its own table, because they are few and the film's table
+    /// lacks some of them. Empty for other frames.
     OwnColours own_colours(const FilmFrame& frame) const {
         OwnColours own = few_colours(frame, most_colours - with_holes_);
         const std::vector<PackedColour>& table = nearest_.table();

@@ -123,7 +123,8 @@ private:
     static std::string chunk(const char* name, const std::string& data) {
         return name + little_endian(data.size(), 4) + data + std::string(data.size() % 2, '\0');
     }
-    /// The header of the file. The size in it does not include the first 8 bytes of the file.
+    /// The header of the file. The size that it contains does not include the first 8 bytes of the
+    /// file.
     std::string riff_header() const {
         const std::uint64_t size = file_->size() == 0 ? 0 : file_->size() - 8;
         return "RIFF" + little_endian(size, 4) + "WEBP";

@@ -30,7 +30,7 @@ struct Expression {
     std::string text = "0";
     std::vector<Expression> of = {};
     Span span = {};         ///< The place in the source.
-    bool is_whole = false;  ///< Whether C computes the formula with integers, as 1/2 = 0.
+    bool is_whole = false;  ///< Whether C computes the formula with integers, so that 1/2 is 0.
     std::uint32_t depth = 1;
 
     bool is_number(std::string_view value) const { return kind == Kind::number && text == value; }
@@ -43,7 +43,7 @@ inline constexpr std::uint32_t deepest_formula = 1000;
 
 /// The style in which a program writes formulas.
 struct Dialect {
-    bool is_c = false;              ///< Has casts, suffixes of numbers, and quotients of integers.
+    bool is_c = false;              ///< Has casts, suffixes of numbers, and integer division.
     bool caret_is_power = false;    ///< `^` and `**` are powers.
     bool implies_products = false;  ///< `2u` and `k(1 - u)` are products.
     bool ignores_case = false;      ///< Names are converted to small letters.
@@ -53,10 +53,10 @@ Expression number(double value);
 Expression name(std::string text);
 Expression call(std::string function, std::vector<Expression> arguments);
 Expression negated(Expression operand);
-/// Simplifies sums with 0, and products and quotients with 1.
+/// Joins two operands by an operator. Simplifies sums with 0, and products and quotients with 1.
 Expression operation(Expression left, std::string_view sign, Expression right);
 
-/// A number as Cascade writes it, with up to nine digits.
+/// A number as text of the language, with up to nine digits.
 std::string number_text(double value);
 
 /// Reads the formula at `span` of a source. If it is not a formula, reports an error and returns an
@@ -68,8 +68,8 @@ std::optional<Expression> read_formula(Span span, const Sources& sources, Diagno
 /// the language go from 1 (`or`) to 9 (operands).
 std::string write_formula(const Expression& formula, int least = 0);
 
-/// Replaces each name and each call by the result of `replace`. The arguments of a call are
-/// replaced before the call. If the result is empty, the name or call stays.
+/// Replaces each name and each call by what `replace` returns for it. The arguments of a call are
+/// replaced before the call. If `replace` returns an empty optional, the name or call stays.
 using Replace = std::function<std::optional<Expression>(const Expression&)>;
 Expression replaced(const Expression& formula, const Replace& replace);
 
@@ -80,12 +80,12 @@ struct ForeignFunction {
     std::size_t arguments;
     std::string_view meaning;
 };
-/// The meaning that a table gives to a call. Empty if the table has no such function.
+/// Replaces a call by its meaning in a table. Empty if the table lacks the function.
 std::optional<Expression> meaning_of(const Expression& function,
                                      std::span<const ForeignFunction> table);
 
-/// The value of a formula of numbers and functions of numbers. Empty if it contains a name or
-/// another function.
+/// Evaluates a formula of numbers and functions of numbers. Empty if it contains a name or another
+/// function.
 std::optional<double> value_of(const Expression& formula);
 
 /// Whether `formula` contains the name.

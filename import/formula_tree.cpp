@@ -24,7 +24,7 @@ Expression with_operands(Expression node) {
 }  // namespace
 
 std::string number_text(double value) {
-    return fmt::format("{}", value);  // The fewest digits that give this number again.
+    return fmt::format("{}", value);  // The fewest digits that read back as this number.
 }
 
 Expression number(double value) {

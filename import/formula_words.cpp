@@ -29,8 +29,8 @@ public:
     WordReader(Span span, std::string_view text, const Dialect& dialect)
         : span_(span), text_(text), dialect_(dialect) {}
 
-    /// The next word. At the end of the text its kind is `end`. If a letter belongs to no word, the
-    /// kind is `end`, too, and the text describes the error.
+    /// The next word. At the end of the text, its kind is `end`. If no word begins with the next
+    /// letter, its kind is `end`, too, and its text describes the error.
     FormulaWord next() {
         skip();
         FormulaWord word;

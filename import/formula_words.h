@@ -14,20 +14,21 @@ struct FormulaWord {
     Kind kind = Kind::end;
     std::string text;
     Span span;
-    bool is_whole = false;  ///< A number without a point or an exponent.
+    bool is_whole = false;  ///< Whether the word is a number without a point or an exponent.
 };
 
 /// The largest number of words in one formula or list of statements.
 inline constexpr std::size_t most_formula_words = 100'000;
 
-/// The words of a text, followed by `end`. Comments of C are left out. If a letter belongs to no
+/// The words of a text, followed by `end`. Comments of C are left out. If some letter belongs to no
 /// word, reports an error and returns an empty optional.
 std::optional<std::vector<FormulaWord>> formula_words(Span span, const Sources& sources,
                                                       Diagnostics& diagnostics,
                                                       const Dialect& dialect);
 
-/// Replaces each loop `for (int i = 0; i < 5; i++) { … }` by its repeated statements, and gives the
-/// elements of arrays names: `u[2]` becomes `u_2`. Loops of another form stay as they are.
+/// Replaces each loop `for (int i = 0; i < 5; i++) { … }` by its statements, written once for each
+/// turn. Turns elements of arrays into names: `u[2]` becomes `u_2`. Loops of another form stay as
+/// they are.
 std::vector<FormulaWord> unroll_loops(std::vector<FormulaWord> words);
 
 /// Reads expressions from words, by operator precedence. After an error, all further results are 0
@@ -43,7 +44,7 @@ public:
         return next().kind != FormulaWord::Kind::end && next().text == text;
     }
     FormulaWord take();
-    /// Whether the next word was `text`, which is then taken.
+    /// Takes the next word if it is `text`. Returns whether it was taken.
     bool takes(std::string_view text);
     void expect(std::string_view text);
     Expression expression() { return binary(0); }

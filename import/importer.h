@@ -15,7 +15,7 @@ namespace cascade::importing {
 
 /// The largest file that is imported, in bytes.
 inline constexpr std::uint64_t largest_import = std::uint64_t{1} << 28;
-/// The most cells of an imported domain.
+/// The largest number of cells of an imported domain.
 inline constexpr std::int64_t most_imported_cells = std::int64_t{1} << 26;
 
 /// A file or link to import, and the receiver of messages about it.
@@ -25,8 +25,8 @@ struct Import {
     SourceId source = 0;    ///< The bytes of the file.
     std::string name = {};  ///< The name of the file in messages and in the comment of the script.
     std::string stem = {};  ///< The beginning of the names of files beside the script.
-    /// Diffusion coefficients that the user gives, by the names of species. For formats that do not
-    /// contain any.
+    /// Diffusion coefficients that the user gives, by the names of species. For formats whose files
+    /// contain none.
     std::map<std::string, std::string> diffusion = {};
     std::string preset = {};  ///< The preset that the user chooses by name, if any.
     std::optional<SourceId> presets = std::nullopt;  ///< A file of further presets.
@@ -38,11 +38,12 @@ struct Import {
 struct ImportFormat {
     std::string_view name;     ///< For example "pattern of Ready".
     std::string_view endings;  ///< For example ".vti", as messages show it.
-    bool takes_diffusion;      ///< Whether `--diffusion` has a meaning.
-    bool takes_presets;        ///< Whether `--preset` and `--presets` have a meaning.
+    bool takes_diffusion;      ///< Whether `--diffusion` has a meaning for the format.
+    /// Whether `--preset` and `--presets` have a meaning for the format.
+    bool takes_presets;
     bool (*recognises)(std::string_view file, std::string_view bytes);
-    /// If the file cannot be imported unchanged, reports errors with their positions and returns an
-    /// empty optional.
+    /// Reads the file. If it cannot be imported unchanged, reports errors with their positions and
+    /// returns an empty optional.
     std::optional<Draft> (*read)(Import& import);
 };
 std::span<const ImportFormat> import_formats();
@@ -51,8 +52,8 @@ std::span<const ImportFormat> import_formats();
 const ImportFormat* format_of(std::string_view file, std::string_view bytes);
 
 std::optional<Draft> read_ready(Import& import);
-std::optional<Draft> read_visual_pde(Import& import);  // A link or a preset as JSON.
+std::optional<Draft> read_visual_pde(Import& import);  // Reads a link, or a preset as JSON.
 std::optional<Draft> read_xpp(Import& import);
-std::optional<Draft> read_sbml(Import& import);  // By libSBML, if this build has it.
+std::optional<Draft> read_sbml(Import& import);  // Uses libSBML, if this build has it.
 
 }  // namespace cascade::importing

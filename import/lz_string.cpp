@@ -12,7 +12,7 @@ class LzBits {
 public:
     explicit LzBits(std::string_view letters) : letters_(letters) {}
 
-    /// A number of `count` bits, the lowest first. Empty at the end of the letters.
+    /// Reads a number of `count` bits, the lowest first. Empty if there are not enough letters.
     std::optional<std::uint32_t> take(int count) {
         std::uint32_t value = 0;
         for (int k = 0; k < count; ++k) {
@@ -30,7 +30,8 @@ private:
         constexpr std::string_view alphabet =
             "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+-$";
         const std::size_t place = alphabet.find(letter);
-        // '$' fills the last group. lz-string gives it the value 64, whose low six bits are 0.
+        // '$' fills up the last group of letters. lz-string gives it the value 64, whose low six
+        // bits are 0.
         return place == std::string_view::npos ? -1 : static_cast<int>(place & 63);
     }
 
@@ -74,7 +75,7 @@ struct LzEntry {
     std::uint32_t size = 1;
 };
 
-/// The units of an entry, first to last.
+/// The units of an entry, from first to last.
 Units units_of(const std::vector<LzEntry>& entries, std::uint32_t index) {
     Units units(entries[index].size);
     for (std::size_t k = units.size(); k-- > 0; index = entries[index].before) {
@@ -117,8 +118,8 @@ std::optional<std::string> from_lz_string(std::string_view letters, std::size_t 
         if (*code < 2) counts_down();
         const auto next = static_cast<std::uint32_t>(entries.size());
         if (*entry > next) return std::nullopt;
-        // A code may denote the entry that is about to be made. This entry begins with the previous
-        // one.
+        // A code may denote the entry that is about to be made. This entry is the previous one,
+        // followed by that one's first unit.
         Units units = units_of(entries, *entry < next ? *entry : before);
         if (*entry == next) units.push_back(units.front());
         text.insert(text.end(), units.begin(), units.end());

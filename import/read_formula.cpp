@@ -109,7 +109,7 @@ Expression FormulaReader::binary(int least) {
                      "'^' combines the bits of whole numbers, which has no counterpart in Cascade");
                 break;
             }
-            // A power groups from the right, and its exponent may have a sign.
+            // Powers group from the right, and exponents may have a sign.
             Expression right = binary(is_power ? found->precedence - 1 : found->precedence);
             left = joined(std::move(left), std::string(found->meaning), std::move(right));
             left.span = sign.span;
@@ -208,7 +208,7 @@ Expression FormulaReader::of_name(const FormulaWord& word) {
             fail(next().span, fmt::format("'{}' is missing here", close));
     }
     expect(close);
-    // if(a)then(b)else(c) of XPPAUT.
+    // Reads XPPAUT's if(a)then(b)else(c).
     if (made.text == "if" && made.of.size() == 1 && takes("then")) {
         made.of.push_back(operand());
         expect("else");

@@ -50,7 +50,8 @@ bool read_cells(ReadyPattern& pattern, const pugi::xml_node& image) {
     return false;
 }
 
-/// The text before the rules: the type of the file, and its description without HTML tags.
+/// The comment at the top of the script: the type of the pattern and its description, without HTML
+/// tags.
 std::vector<std::string> description_of(const Import& import, const pugi::xml_node& rd) {
     const std::string title = plain_line(unescaped(rd.child("rule").attribute("name").value()));
     std::vector<std::string> lines = {fmt::format("{}, imported from a pattern of Ready: {}",
@@ -130,7 +131,7 @@ std::optional<std::string> store_species(const ReadyPattern& pattern, const VtkF
     return fmt::format("field(\"{}\")", draft.files.back().name);
 }
 
-/// Whether the starting values come from the overlays of the file, and not from its values.
+/// Whether the file's overlays, and not its values, give the starting values.
 bool begins_with_overlays(const pugi::xml_node& generator) {
     return generator &&
            std::string_view(generator.attribute("apply_when_loading").as_string("true")) == "true";
@@ -158,7 +159,7 @@ bool add_start(ReadyPattern& pattern, const VtkFile& file, const pugi::xml_node&
     return true;
 }
 
-/// The stencil of the domain. Ready's Laplacians are from Patra and Karttunen (2006).
+/// The stencil of the domain. Ready takes its Laplacians from Patra and Karttunen (2006).
 std::string stencil_of(const ReadyPattern& pattern, const pugi::xml_node& formula, Draft& draft) {
     const std::string_view accuracy = formula.attribute("accuracy").as_string("medium");
     const std::string text = formula.child_value();

@@ -16,14 +16,17 @@ namespace cascade::importing {
 struct ReadyPattern {
     Import& import;
     FreeNames names = {};
-    /// The cells along x, y and z. In Ready y points upwards; Cascade's rows are in the opposite
-    /// order, so that pictures look the same.
+    /// The cells along x, y and z. In Ready, y points upwards. Cascade's rows run downwards, so
+    /// that pictures look the same.
     std::array<std::int64_t, 3> cells = {1, 1, 1};
     bool is_periodic = true;
-    bool has_nine_cells = false;            ///< Whether Laplacians in the plane read nine cells.
-    std::vector<std::string> species = {};  ///< Their names in the script, in Ready's order.
-    std::map<std::string, std::string> parameters = {};  ///< Names in the script by names of Ready.
-    std::map<std::string, double> values = {};  ///< Values of parameters by names of Ready.
+    bool has_nine_cells = false;  ///< Whether Laplacians in the plane read nine cells.
+    /// The names of the species in the script, in Ready's order.
+    std::vector<std::string> species = {};
+    /// The names of parameters in the script, by their names in Ready.
+    std::map<std::string, std::string> parameters = {};
+    /// The values of parameters, by their names in Ready.
+    std::map<std::string, double> values = {};
 
     int axes() const {
         return static_cast<int>(cells[0] > 1) + static_cast<int>(cells[1] > 1) +
@@ -41,8 +44,8 @@ std::optional<std::size_t> ready_chemical_number(std::string_view name, std::siz
 /// Adds the definitions and rates of the formula. Returns false after an error.
 bool add_ready_formula(ReadyPattern& pattern, const pugi::xml_node& formula, Draft& draft);
 
-/// Adds the starting values that the overlays of the file make. `stored` are the starting values of
-/// species that no overlay overwrites. Returns false after an error.
+/// Adds the starting values that result from the overlays of the file. `stored` are the starting
+/// values of species that no overlay overwrites. Returns false after an error.
 bool add_ready_start(ReadyPattern& pattern, const pugi::xml_node& generator,
                      const std::vector<std::string>& stored, Draft& draft);
 

@@ -2,7 +2,7 @@
 // method.
 //
 // Assignments are executed in order, and each name denotes its last assignment. In the script each
-// assignment is a separate definition. In the end a chemical has the value that it was assigned, if
+// assignment is a separate definition. After the step, a chemical has its last assigned value, if
 // any, plus timestep times its delta.
 #include "import/formula_words.h"
 #include "import/ready.h"
@@ -19,7 +19,7 @@ namespace {
 
 /// An assignment. It becomes a definition, or is written where it is used.
 struct Assigned {
-    std::string name;  ///< In the script.
+    std::string name;  ///< The name in the script.
     Expression value;
     bool is_delta = false;
     int uses = 0;
@@ -73,7 +73,8 @@ private:
     Draft& draft_;
     const Dialect dialect_ = {.is_c = true};
     std::vector<Assigned> assigned_;
-    std::map<std::string, std::size_t> latest_;  ///< By names of Ready: an index of `assigned_`.
+    /// For each name of Ready, the index of its last assignment in `assigned_`.
+    std::map<std::string, std::size_t> latest_;
     bool failed_ = false;
 };
 
@@ -95,7 +96,7 @@ void ReadyFormula::statement(FormulaReader& reader) {
         if (target.kind != FormulaWord::Kind::name) {
             return reader.fail(target.span, "an assignment should begin here");
         }
-        if (reader.at(",")) continue;  // A declaration.
+        if (reader.at(",")) continue;  // A declaration without a value.
         const FormulaWord sign = reader.take();
         if (sign.text == ";") return;
         if (sign.text == "[")
@@ -174,7 +175,7 @@ std::optional<Expression> ReadyFormula::meaning(const Expression& part) {
     }
     if (function.text == "if") return std::nullopt;
     if (function.text == "clamp" && function.of.size() == 3) {
-        // In OpenCL an undefined value becomes the lower limit.
+        // OpenCL turns an undefined value into the lower limit.
         add_function("fn clamped(a, low, high) = if(a > low, min(a, high), low)");
         function.text = "clamped";
         return function;
@@ -188,7 +189,7 @@ std::optional<Expression> ReadyFormula::meaning(const Expression& part) {
     return found;
 }
 
-/// The present meaning of a name of Ready.
+/// What a name of Ready means at this place of the formula.
 std::optional<Expression> ReadyFormula::named(const std::string& word) {
     if (const auto found = latest_.find(word); found != latest_.end()) {
         return name(assigned_[found->second].name);
@@ -256,7 +257,7 @@ std::optional<Expression> ReadyFormula::blurred(const std::string& species) {
     return name(fmt::format(fmt::runtime(text), species));
 }
 
-/// The value in another cell, such as "ne" or "w2". Adds the functions that find it.
+/// The value in the cell at a place such as "ne" or "w2". Adds the functions that read this cell.
 std::optional<Expression> ReadyFormula::neighbour(const std::string& species,
                                                   std::string_view place) {
     Expression value = name(species);

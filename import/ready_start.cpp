@@ -1,8 +1,8 @@
 // Writes the overlays of a pattern of Ready as starting values.
 //
 // An overlay changes a chemical inside its shapes by an operation and a fill. Overlays are applied
-// in order. Positions are fractions of the domain. Ready compares them with the corners of cells,
-// so shapes are written here such that they contain the same cells.
+// in order. Positions are fractions of the domain. Ready compares positions with the corners of
+// cells, so shapes are moved here such that they contain the same cells.
 #include "import/ready.h"
 
 #include <fmt/format.h>
@@ -28,7 +28,7 @@ public:
     bool add(const pugi::xml_node& overlay) {
         const auto species =
             ready_chemical_number(overlay.attribute("chemical").value(), pattern_.species.size());
-        if (!species) return true;  // Ready ignores such overlays, too.
+        if (!species) return true;  // Ready also ignores overlays of unknown chemicals.
         std::string sign;
         pugi::xml_node fill;
         std::vector<pugi::xml_node> shapes;
@@ -100,7 +100,8 @@ private:
         return value.value_or(0);
     }
 
-    /// The points that the children of an element give. Reports an error unless there are `count`.
+    /// Reads the points that the children of an element give. Reports an error unless there are
+    /// `count`.
     std::vector<Point> points_of(const pugi::xml_node& node, std::size_t count) {
         std::vector<Point> points;
         for (const pugi::xml_node& point : node.children()) {
@@ -146,7 +147,7 @@ private:
         return box(low, high);
     }
 
-    /// The cells from `low` to `high`.
+    /// The condition that a cell is in the box from `low` to `high`.
     std::optional<Expression> box(Point low, Point high) const {
         std::vector<Expression> middle, sizes;
         const auto longest = static_cast<double>(pattern_.longest());
@@ -194,7 +195,7 @@ private:
         }
         arguments.push_back(number(radius));
         if (!pattern_.is_periodic || !crosses) return call("disc", std::move(arguments));
-        // A disc of Cascade continues at periodic sides, a circle of Ready does not.
+        // A disc of Cascade continues at periodic sides, but a circle of Ready does not.
         return operation(root(std::move(squares)), "<", number(radius));
     }
 

@@ -59,7 +59,8 @@ inline constexpr ForeignFunction opencl_functions[] = {
     {"float", 1, "A"},
 };
 
-/// The operators of Ready, as NAME_CHEMICAL. y points upwards in Ready and downwards here.
+/// The operators of Ready, which formulas write as NAME_CHEMICAL. y points upwards in Ready and
+/// downwards here.
 inline constexpr ForeignFunction ready_operators[] = {
     {"laplacian", 1, "lap(A)"},
     {"bilaplacian", 1, "lap(lap(A))"},

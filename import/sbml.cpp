@@ -29,7 +29,7 @@ constexpr ForeignFunction sbml_functions[] = {
     {"max", 2, "max(A, B)"},
 };
 
-/// Loads the module. Null, after an error, if that is impossible.
+/// Loads the module. If that is impossible, reports an error and returns null.
 SbmlReader* load_sbml_reader(Import& import) {
     const auto refuse = [&](const std::string& why, const std::string& hint) {
         import.diagnostics.error({import.source, 0, 0}, why, hint);
@@ -162,7 +162,7 @@ private:
                 "The model has no space, so both cells do the same. --diffusion NAME=D lets "
                 "species diffuse on a plane.");
         }
-        draft_.speed = 0;  // Chosen by the solver.
+        draft_.speed = 0;  // The solver chooses the steps.
         draft_.stage = {"duration: 100", "solver: rk45"};
         if (!model_.rates.empty()) draft_.stage.push_back("show: " + own_[model_.rates[0].id]);
     }

@@ -27,8 +27,10 @@ struct SbmlRate {
     std::string id;
     SbmlFormula start;
     SbmlFormula rule;
-    std::vector<std::pair<double, std::string>> reactions;  ///< Factors and ids.
-    std::string compartment;  ///< The sum is divided by its size. Empty: no division.
+    /// The factor and the id of each reaction.
+    std::vector<std::pair<double, std::string>> reactions;
+    /// The sum of reactions is divided by the size of this compartment. Empty if it is not divided.
+    std::string compartment;
 };
 
 struct SbmlModel {
@@ -36,8 +38,8 @@ struct SbmlModel {
     std::vector<SbmlQuantity> constants;    ///< Includes the sizes of compartments.
     std::vector<SbmlQuantity> assignments;  ///< Rules, and the rates of reactions by their ids.
     std::vector<SbmlRate> rates;
-    /// Problems that prevent the import, with their lines. If there are any, all other members are
-    /// meaningless.
+    /// Problems that prevent the import, with their lines. If there are problems, all other members
+    /// are meaningless.
     std::vector<std::pair<unsigned, std::string>> problems;
 };
 

@@ -175,7 +175,8 @@ private:
 SbmlModel read_sbml_text(const std::string& text) {
     SbmlModel made;
     const std::unique_ptr<SBMLDocument> document(readSBMLFromString(text.c_str()));
-    // Functions and parameters of single reactions are written out.
+    // Replaces calls of functions by their formulas, and makes parameters of single reactions
+    // parameters of the model.
     for (const char* const option : {"expandFunctionDefinitions", "promoteLocalParameters"}) {
         if (document->getNumErrors(LIBSBML_SEV_ERROR) + document->getNumErrors(LIBSBML_SEV_FATAL) >
             0)

@@ -19,8 +19,8 @@ bool are_words(const Words& words, std::size_t at, std::initializer_list<std::st
     return true;
 }
 
-/// The index after the bracket that closes the bracket before `at`. The end if there is no such
-/// bracket.
+/// The index after the bracket that closes the bracket before `at`. The number of words if no
+/// bracket closes it.
 std::size_t after_closing(const Words& words, std::size_t at, std::string_view open,
                           std::string_view close) {
     for (int depth = 1; at + 1 < words.size(); ++at) {
@@ -30,8 +30,8 @@ std::size_t after_closing(const Words& words, std::size_t at, std::string_view o
     return words.size() - 1;
 }
 
-/// The words of `for (int i = A; i < B; i++) { … }`, once for each turn of the loop. Empty if the
-/// loop has another form or makes too many words.
+/// The words inside `for (int i = A; i < B; i++) { … }`, once for each turn of the loop. Empty if
+/// the loop has another form or makes too many words.
 std::optional<Words> written_out(const Words& words, std::size_t& at, std::size_t room) {
     const std::string variable = at + 3 < words.size() ? words[at + 3].text : "";
     const bool is_counted =

@@ -62,7 +62,7 @@ public:
     }
 
 private:
-    /// The rate that gives the species this value after one step.
+    /// The rate with which the species reaches this value after one step.
     static Expression towards(const Expression& value, const std::string& species) {
         return operation(operation(value, "-", name(species)), "/", name("speed"));
     }
@@ -77,7 +77,7 @@ private:
         Import quiet{import_.sources, ignored};
         Draft scratch;
         VisualPdeNames other(quiet, options_, scratch);
-        // If the mask reads a species, the cells outside get their values in the first step.
+        // If the mask reads a species, the cells outside of it get their values in the first step.
         if (other.declare() && condition_of_mask(other, Where::start)) {
             begins_ = names_.fresh_name("begins");
             draft_.starts.push_back(fmt::format(
@@ -192,7 +192,9 @@ private:
     Import& import_;
     const VisualPdeOptions& options_;
     Draft& draft_;
-    std::string begins_;  ///< The parameter that is 1 inside the mask at the start, if known.
+    /// The parameter that is 1 inside the mask at the start. Empty if the start of the mask is
+    /// unknown.
+    std::string begins_;
 };
 
 bool add_mask(VisualPdeNames& names, const VisualPdeOptions& options, Draft& draft) {

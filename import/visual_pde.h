@@ -1,4 +1,4 @@
-// Simulations of VisualPDE (visualpde.com): the declarations that the files of the reader share.
+// Simulations of VisualPDE (visualpde.com): what the source files of their reader share.
 #pragma once
 
 #include "import/importer.h"
@@ -24,7 +24,7 @@ public:
     /// An option of one of the four species, such as "reactionStr_1".
     std::string text(std::string_view key, std::size_t species) const;
     bool is_true(const std::string& key) const { return text(key) == "true"; }
-    /// The text of an option as a source, for messages about it.
+    /// Makes the text of an option a source, for messages about it.
     Span source(Import& import, const std::string& key) const;
 
 private:
@@ -37,23 +37,24 @@ public:
     VisualPdeNames(Import& import, const VisualPdeOptions& options, Draft& draft)
         : import_(import), options_(options), draft_(draft) {}
 
-    /// Declares species and parameters, and measures the domain. Returns false after an error.
+    /// Declares species and parameters, and finds the size of the domain. Returns false after an
+    /// error.
     bool declare();
 
     enum class Where : std::uint8_t { rate, start, mask, side, picture };
-    /// The formula of an option in Cascade. If the text is not a formula, reports an error. An
-    /// empty text is 0.
+    /// Translates the formula of an option. If the text is not a formula, reports an error. An
+    /// empty text means 0.
     std::optional<Expression> formula(Span span, Where where);
     std::optional<Expression> option(const std::string& key, Where where);
     /// The value of an option that is one number.
     std::optional<double> constant(const std::string& key);
 
-    /// Whether a formula in Cascade is the same number in all cells.
+    /// Whether a translated formula is the same number in all cells.
     bool is_uniform(const Expression& formula) const;
     const std::vector<std::string>& species() const { return species_; }
     std::size_t algebraic() const { return algebraic_; }
     bool is_line() const { return is_line_; }
-    /// The number of species whose formula is their next value. They come before the algebraic
+    /// The number of species whose formula gives their next value. They come before the algebraic
     /// species.
     std::size_t maps() const { return maps_; }
     /// The definition that is 1 inside a mask that changes. Empty if the mask does not change.
@@ -105,7 +106,8 @@ private:
     Draft& draft_;
     FreeNames names_;
     std::vector<std::string> species_;
-    std::map<std::string, std::string> own_species_;  ///< Names in the script by VisualPDE's.
+    /// The names of species in the script, by their names in VisualPDE.
+    std::map<std::string, std::string> own_species_;
     std::vector<Parameter> parameters_;
     std::map<std::string, double> values_;  ///< The values of parameters that are numbers.
     std::set<std::string> differentiated_;

@@ -53,7 +53,7 @@ constexpr ForeignFunction visual_pde_functions[] = {
     {"float", 1, "A"},
 };
 
-/// The parts of `text` between the marks: the beginning and the end of each.
+/// The parts of `text` between the marks, as the beginning and the end of each part.
 std::vector<std::pair<std::size_t, std::size_t>> parts_of(std::string_view text, char mark) {
     std::vector<std::pair<std::size_t, std::size_t>> parts;
     std::size_t begin = 0;
@@ -109,13 +109,14 @@ bool VisualPdeNames::declare() {
     return declare_parameters() && measure() && find_moving_mask();
 }
 
-/// Finds out whether the mask reads t or a species. If so, the script has a definition for it.
+/// Finds out whether the mask reads t or a species. If so, adds a definition of the mask to the
+/// script.
 bool VisualPdeNames::find_moving_mask() {
     if (!options_.is_true("domainViaIndicatorFun")) return true;
     Diagnostics ignored;
     const Span span = options_.source(import_, "domainIndicatorFun");
     const auto read = read_formula(span, import_.sources, ignored, visual_pde_dialect);
-    if (!read) return true;  // The reader of the mask reports it.
+    if (!read) return true;  // The code that reads the mask reports the error.
     const auto moves = [&](const Expression& part, const auto& again) -> bool {
         if (part.is_name("t") || own_species_.contains(part.text)) return true;
         return std::any_of(part.of.begin(), part.of.end(),
@@ -133,7 +134,7 @@ std::string VisualPdeNames::kind_of_sides(std::size_t species) const {
     return kind;
 }
 
-/// Reads "D = 1 in [0, 2]; k = 2*D".
+/// Reads parameters such as "D = 1 in [0, 2]; k = 2*D".
 bool VisualPdeNames::declare_parameters() {
     const Span whole = options_.source(import_, "kineticParams");
     const std::string_view text = import_.sources.text(whole);
@@ -202,8 +203,8 @@ bool VisualPdeNames::measure() {
     }
     columns = std::max<std::int64_t>(static_cast<std::int64_t>(*scale / *step + 1e-9), 2);
     rows = is_line_ ? 1 : columns;
-    // Finite differences must use the same spacing as VisualPDE, so its step is kept and the width
-    // is rounded.
+    // Finite differences must use VisualPDE's spacing, so its step is kept and the width of the
+    // domain is rounded.
     spacing = *step;
     width = height = spacing * static_cast<double>(columns);
     if (std::abs(width / *scale - 1) > 1e-6) {
@@ -300,7 +301,8 @@ Expression VisualPdeNames::place(char axis) {
 void VisualPdeNames::add_parameters() {
     std::set<std::string> written;
     std::vector<std::string> unread;
-    // Reading a parameter may read others that are declared before or after it.
+    // A formula may read parameters that are declared before or after its own parameter, so this
+    // repeats until no further parameter is read.
     std::vector<std::string> texts(parameters_.size());
     for (bool goes_on = true; goes_on;) {
         goes_on = false;

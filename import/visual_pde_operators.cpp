@@ -1,8 +1,9 @@
 // Operators and values of other cells in formulas of VisualPDE, also in domains that change.
 //
-// If a mask reads t or a species, the script has a definition that is 1 inside. Cells outside have
-// a value that the mask's boundary condition gives, and operators read it there, as they do in
-// VisualPDE. For closed borders, where nothing flows through, operators leave such cells out.
+// If a mask reads t or a species, the script has a definition that is 1 inside the mask. Cells
+// outside have the value that the mask's boundary condition gives, and operators read this value,
+// as they do in VisualPDE. If the border is closed, so that nothing flows through, operators leave
+// out the cells outside.
 #include "import/visual_pde.h"
 
 #include <fmt/format.h>
@@ -20,8 +21,9 @@ bool VisualPdeNames::is_closed(const std::string& species) const {
     return kind == "neumann" || kind == "robin";
 }
 
-/// An operator applied to a species. Where the mask changes and is closed, a neighbour outside has
-/// the cell's own value: an operator L that is 0 for constants becomes L(inside u) - u L(inside).
+/// An operator applied to a species. If the mask changes and its border is closed, a neighbour
+/// outside counts with the cell's own value: an operator L that is 0 for constants becomes L(inside
+/// u) - u L(inside).
 Expression VisualPdeNames::operate(const std::string& function, const std::string& species) {
     differentiate(species);
     const Expression u = name(species);

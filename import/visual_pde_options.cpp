@@ -14,7 +14,7 @@ namespace {
 
 struct OptionOfVisualPde {
     std::string_view key;
-    std::string_view short_key;  ///< In links. Empty if links have the whole key.
+    std::string_view short_key;  ///< The key in links. Empty if links have the whole key.
     std::string_view value;      ///< VisualPDE's default.
 };
 constexpr OptionOfVisualPde options_of_visual_pde[] = {
@@ -126,7 +126,7 @@ std::string text_of_value(const nlohmann::json& value) {
     return value.is_null() ? "" : value.dump();
 }
 
-/// The options with whole keys. Links have short ones.
+/// Replaces the short keys of links by whole keys.
 nlohmann::json with_whole_keys(const nlohmann::json& json) {
     if (!json.contains("p")) return json;
     nlohmann::json made = json;
@@ -161,7 +161,7 @@ void count_algebraic_species(nlohmann::json& options) {
     if (count > 0) options["numAlgebraicSpecies"] = count;
 }
 
-/// The preset that a link without options names. Empty if it names none.
+/// The preset that a link without options names. Empty if the link names none.
 std::string preset_in_link(std::string_view link) {
     const std::size_t mark = link.find("preset=");
     const bool has_options = link.find("options=") != std::string_view::npos;

@@ -22,12 +22,13 @@ bool is_name_letter(char letter) {
 }
 
 /// Rewrites an object literal of JavaScript as JSON. Keys may be names, texts may have single
-/// quotes, and commas may follow the last member. JSON's parser refuses the rest.
+/// quotes, and commas may follow the last member. The parser of JSON refuses all other deviations
+/// from JSON.
 class ObjectLiteral {
 public:
     ObjectLiteral(std::string_view text, std::size_t begin) : text_(text), at_(begin) {}
 
-    /// Nothing if the object has no end.
+    /// Empty if the object has no end.
     std::optional<std::string> as_json() {
         int depth = 0;
         do {
@@ -62,7 +63,7 @@ private:
         const std::size_t end = text_.find(is_line ? "\n" : "*/", at_ + 2);
         at_ = end == std::string_view::npos ? text_.size() : end + (is_line ? 1 : 2);
     }
-    /// False if the text has no end.
+    /// Returns false if the text has no end.
     bool add_text(char quote) {
         json_ += '"';
         for (++at_; at_ < text_.size() && text_[at_] != quote; ++at_) {
@@ -137,7 +138,7 @@ std::optional<std::vector<VisualPdePreset>> statements_of(std::string_view text,
     return all.empty() ? std::nullopt : std::optional(std::move(all));
 }
 
-/// The present key of an option whose key VisualPDE has changed: diffusionStr_1_2 for
+/// The present key of an option whose key VisualPDE has changed, such as diffusionStr_1_2 for
 /// diffusionStrUV. Empty for other keys.
 std::string key_of_old_option(std::string_view key) {
     constexpr std::pair<std::string_view, std::string_view> old_keys[] = {

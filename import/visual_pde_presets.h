@@ -21,9 +21,9 @@ struct VisualPdePreset {
 inline constexpr std::size_t largest_visual_pde = std::size_t{1} << 22;
 
 /// The presets in a text. The text is the JSON of one preset, a JSON object of presets by name, or
-/// statements of JavaScript such as presets["NAME"] = {…}, which VisualPDE copies and which its
-/// file presets.js contains. Empty for any other text. Then `wrong` is the position of the first
-/// statement whose value cannot be read, or 0.
+/// statements of JavaScript such as presets["NAME"] = {…}, as VisualPDE's file presets.js contains
+/// them and VisualPDE copies them. Empty for any other text. Then `wrong` is the position of the
+/// first statement whose value cannot be read, or 0.
 std::optional<std::vector<VisualPdePreset>> visual_pde_presets(std::string_view text,
                                                                std::size_t& wrong);
 

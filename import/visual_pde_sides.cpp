@@ -2,8 +2,8 @@
 //
 // VisualPDE's sides pass through the centres of the outermost cells. Neumann and Robin conditions
 // give the derivative along the outward normal, which is slope(…) here. A condition `Ghost` gives
-// the value g beyond the side. The value at a face, which formulas of sides read, is
-// f = (c + g) / 2 with the value c of the cell, so that slope(2 (g - u) / h) gives g.
+// the value g beyond the side. Formulas of sides read the value at the face, f = (c + g) / 2, where
+// c is the value of the cell. So slope(2 (g - u) / h) gives g.
 #include "import/visual_pde.h"
 
 #include <fmt/format.h>
@@ -144,7 +144,7 @@ private:
             begin = end + 1;
         }
         for (std::size_t side = 0; side < 4; ++side) {
-            // If the opposite side is periodic, a side that is not given is periodic, too.
+            // A side without a condition is periodic if the opposite side is.
             const std::size_t opposite = side ^ 1U;
             if (is_given[side] || !is_given[opposite]) continue;
             if (all[opposite].kind != SideOfPde::periodic) {
@@ -173,7 +173,7 @@ private:
         if (has_mask && are_same && all[0].kind == SideOfPde::written && kind != "combo") {
             draft_.sides.push_back(fmt::format("{}.border: {}", u, all[0].text));
         } else if (has_mask && (kind == "combo" || kind == "periodic")) {
-            // VisualPDE reads the zeros outside.
+            // In VisualPDE, operators read the zeros outside of the mask.
             draft_.sides.push_back(fmt::format("{}.border: fixed(0)", u));
         }
         for (std::size_t side = 0; side < (are_same ? 1 : used); ++side) {

@@ -21,7 +21,8 @@ std::optional<Expression> VisualPdeNames::named(const Expression& part, Where wh
             each.is_read = true;
             return name(each.own);
         }
-        // Masks cannot read parameters, so the formulas of parameters are written in their place.
+        // Masks cannot read parameters, so the formulas of parameters are written in place of their
+        // names.
         if (++depth_ > 20) fail(part.span, "these parameters depend on each other");
         auto value = has_failed_ ? std::nullopt : formula(each.value, Where::mask);
         --depth_;
@@ -54,8 +55,8 @@ std::optional<Expression> VisualPdeNames::named(const Expression& part, Where wh
     return derivative(word);
 }
 
-/// If `is_outer`, the condition that the cell is one of the outermost; else that it is none of
-/// them.
+/// If `is_outer`, the condition that the cell is one of the outermost cells, otherwise the
+/// condition that it is not.
 Expression VisualPdeNames::on_edge(bool is_outer) {
     Expression all;
     for (const char* const axis : {"domain.x", "domain.y"}) {
@@ -70,7 +71,7 @@ Expression VisualPdeNames::on_edge(bool is_outer) {
     return operation(number(1), "-", all);
 }
 
-/// u_x, u_yy, u_xb (backward), u_xf2 (forward, of second order).
+/// A derivative: u_x, u_yy, u_xb (backward), u_xf2 (forward, of second order).
 std::optional<Expression> VisualPdeNames::derivative(const std::string& word) {
     const std::size_t line = word.rfind('_');
     if (line == std::string::npos) return std::nullopt;
@@ -103,7 +104,7 @@ std::optional<Expression> VisualPdeNames::derivative(const std::string& word) {
     return operation(std::move(difference), "/", operation(number(2), "*", h));
 }
 
-/// u[x + dx, y]: the value a whole number of cells away.
+/// The value u[x + dx, y] in a cell at a whole number of cells from this one.
 std::optional<Expression> VisualPdeNames::at_other_cell(const Expression& part) {
     const auto found = own_species_.find(part.text.substr(0, part.text.size() - 1));
     if (found == own_species_.end() || part.of.size() != 2) {
@@ -112,7 +113,8 @@ std::optional<Expression> VisualPdeNames::at_other_cell(const Expression& part) 
     }
     int cells[2] = {0, 0};
     for (std::size_t k = 0; k < 2; ++k) {
-        // The argument is the position plus an offset. The offset is found from its values.
+        // The argument is the position plus an offset, which is computed as the value of the
+        // argument minus the position.
         const char axis = k == 0 ? 'x' : 'y';
         const Expression offset =
             replaced(operation(part.of[k], "-", place(axis)),
@@ -132,7 +134,7 @@ std::optional<Expression> VisualPdeNames::at_other_cell(const Expression& part) 
     return shifted(found->second, cells[0], cells[1]);
 }
 
-/// The number for a name in a formula of positions, at the place (x, y) from the upper left corner.
+/// The value of a name in a formula of positions, at the point (x, y) from the upper left corner.
 std::optional<Expression> VisualPdeNames::number_for(const Expression& part, double x,
                                                      double y) const {
     if (part.is_name("domain.x")) return number(x);
@@ -218,7 +220,7 @@ std::optional<Expression> VisualPdeNames::picture(const Expression& part, Where 
     if (std::find(remarks.begin(), remarks.end(), remark) == remarks.end()) {
         remarks.push_back(remark);
     }
-    if (where == Where::mask) return name("(" + value + ")");  // Masks read no parameters.
+    if (where == Where::mask) return name("(" + value + ")");  // Masks cannot read parameters.
     if (!pictures_.contains(value)) {
         pictures_[value] = names_.fresh(word);
         draft_.parameters.push_back(fmt::format("{}: {}", pictures_[value], value));

@@ -49,10 +49,10 @@ std::string_view without_blanks(std::string_view text) {
     return text;
 }
 
-/// The letters of Base64 that encode `bytes` bytes.
+/// The number of letters of Base64 that encode `bytes` bytes.
 std::uint64_t letters_for(std::uint64_t bytes) { return (bytes + 2) / 3 * 4; }
 
-/// The first `bytes` bytes of a text of Base64 that encodes at least as many.
+/// Decodes the first `bytes` bytes of a text of Base64 that encodes at least that many.
 std::optional<std::string> first_of_base64(std::string_view text, std::uint64_t bytes) {
     const std::uint64_t letters = letters_for(bytes);
     if (letters > text.size()) return std::nullopt;
@@ -190,8 +190,8 @@ std::optional<std::string> VtkFile::encoded(std::string_view text, bool is_base6
 std::optional<std::string> VtkFile::inflated(std::string_view text, bool is_base64,
                                              std::uint64_t most,
                                              const pugi::xml_node& array) const {
-    // The header: the number of blocks, their size, the size of a shorter last block or 0, and the
-    // compressed size of each block.
+    // Reads the header: the number of blocks, their size, the size of a shorter last block or 0,
+    // and the compressed size of each block.
     const auto first = [&](std::uint64_t count) -> std::optional<std::string> {
         if (is_base64) return first_of_base64(text, count * word_size_);
         if (text.size() < count * word_size_) return std::nullopt;

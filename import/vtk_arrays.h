@@ -23,11 +23,11 @@ public:
 
     pugi::xml_node root() const { return root_; }
 
-    /// The `count` numbers of a <DataArray>. If it has another count of numbers or cannot be read,
-    /// reports an error at the array.
+    /// The `count` numbers of a <DataArray>. If the array has another count of numbers or cannot be
+    /// read, reports an error at the array.
     std::optional<std::vector<double>> numbers(const pugi::xml_node& array,
                                                std::uint64_t count) const;
-    /// All numbers of an array. If it has more than `most`, reports an error at the array.
+    /// All numbers of an array. If there are more than `most`, reports an error at the array.
     std::optional<std::vector<double>> all_numbers(const pugi::xml_node& array,
                                                    std::uint64_t most) const;
 

@@ -15,7 +15,8 @@ constexpr int of_or = 1, of_and = 2, of_not = 3, of_comparison = 4, of_sum = 5, 
 struct SignRule {
     std::string_view sign;
     int precedence;
-    int left, right;  ///< The least precedences that operands without brackets have.
+    /// The lowest precedences that the left and the right operand may have without brackets.
+    int left, right;
 };
 constexpr SignRule sign_rules[] = {
     {"or", of_or, of_or, of_and},           {"and", of_and, of_and, of_not},

@@ -16,7 +16,7 @@ namespace {
 constexpr unsigned int parse_options =
     pugi::parse_minimal | pugi::parse_cdata | pugi::parse_doctype | pugi::parse_ws_pcdata_single;
 
-/// The deepest nesting of elements in bytes that need not be XML.
+/// The deepest nesting of elements in a text that need not be valid XML.
 std::size_t deepest_nesting(std::string_view text) {
     std::size_t depth = 0, deepest = 0;
     for (std::size_t at = text.find('<'); at != std::string_view::npos;

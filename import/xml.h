@@ -19,11 +19,11 @@ bool read_xml(Import& import, std::size_t end, pugi::xml_document& document);
 Span place_of(const Import& import, const pugi::xml_node& node);
 /// The text of an element, as a span of the source. References such as &lt; are not replaced.
 Span text_of(const Import& import, const pugi::xml_node& node);
-/// The attribute or text in which &lt;, &gt;, &amp;, &quot;, &apos; and numeric references are
-/// replaced by their characters.
+/// An attribute or text in which &lt;, &gt;, &amp;, &quot;, &apos; and numeric references are
+/// replaced by the characters that they mean.
 std::string unescaped(std::string_view text);
 
-/// A number in an attribute. Reports an error if it is missing or not a number.
+/// A number in an attribute. Reports an error if the attribute is missing or contains no number.
 std::optional<double> number_attribute(Import& import, const pugi::xml_node& node,
                                        const char* attribute);
 /// A number in a text. Empty if the text is not a number.

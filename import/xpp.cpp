@@ -1,9 +1,9 @@
 // Reads a model of XPPAUT: ordinary differential equations, and chains of them that discretise a
 // line, u[1..50]' = d*(u[j-1] - 2*u[j] + u[j+1]) + …
 //
-// A chain becomes a species on a line of cells, and u[j+1] its value in the next cell. Names beyond
-// the ends of the chain, such as u0 and u51, are definitions of the file, from which the conditions
-// at the sides are derived.
+// A chain becomes a species on a line of cells, and u[j+1] becomes the value of this species in the
+// next cell. Names beyond the ends of the chain, such as u0 and u51, are definitions of the file,
+// from which the conditions at the sides are derived.
 #include "import/xpp.h"
 
 #include "import/xml.h"
@@ -86,8 +86,8 @@ private:
         }
     }
 
-    /// The chain to which a name such as u0 or u51 belongs, and the end beyond which it lies. -1:
-    /// none, 0: before, 1: after.
+    /// Finds the chain that a name such as u0 or u51 continues. The number is 0 if the name lies
+    /// before the first element, 1 if after the last, and −1 if there is no such chain.
     std::pair<std::string, int> end_of(const std::string& name) const {
         for (const XppPair& each : file_.rates) {
             if (!each.is_member) continue;
@@ -132,7 +132,7 @@ private:
         return std::nullopt;
     }
 
-    /// u[j], u[j-1], u[j+2]
+    /// Translates an element such as u[j], u[j-1] or u[j+2].
     std::optional<Expression> neighbour(const Expression& part) {
         const std::string chain = part.text.substr(0, part.text.size() - 1);
         const bool is_chain = names_of_.contains(chain) && part.of.size() == 1;
@@ -161,7 +161,7 @@ private:
         return value;
     }
 
-    /// f(x,y)=…
+    /// Adds a function that is written as f(x,y)=….
     void add_function(const XppPair& pair) {
         const std::size_t open = pair.name.find('('), close = pair.name.find(')');
         const std::string name_of_function = pair.name.substr(0, open);
@@ -224,7 +224,8 @@ private:
         draft_.starts.push_back(fmt::format("{}: {}", own, start));
     }
 
-    /// The element `number` of a chain, as in u50. Empty if the formula is not such an element.
+    /// The index of the element of a chain that a formula such as u50 names. Empty if the formula
+    /// is no element of the chain.
     std::optional<long> element(Span span, const std::string& chain) const {
         std::string words;
         for (const char c : import_.sources.text(span)) {
@@ -300,7 +301,7 @@ private:
             return found == file_.options.end() ? usual
                                                 : plain_number(found->second).value_or(usual);
         };
-        // The defaults of XPPAUT.
+        // XPPAUT's defaults are 0.05 and 20.
         draft_.speed = option("dt", 0.05);
         const double total = option("total", 20);
         if (!(draft_.speed > 0) || !(total > 0)) {

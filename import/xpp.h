@@ -13,9 +13,9 @@ namespace cascade::importing {
 
 /// A statement `name = value` of a file, or one equation.
 struct XppPair {
-    std::string name;  ///< In small letters.
-    Span place;        ///< Of the name.
-    Span value;        ///< Of the formula.
+    std::string name;  ///< The name in small letters.
+    Span place;        ///< The location of the name.
+    Span value;        ///< The location of the formula.
     long number = 0;   ///< The value of [j] in the line, if `is_member`.
     bool is_member = false;
 };
@@ -23,8 +23,8 @@ struct XppPair {
 /// The statements of a file. Its arrays have been recognised.
 struct XppFile {
     std::vector<XppPair> parameters, starts, rates, definitions, functions;
-    std::map<std::string, std::string> options;  ///< `@ dt=.05, total=100`
-    /// The elements of the arrays of species, from the first to the last.
+    std::map<std::string, std::string> options;  ///< Options such as `@ dt=.05, total=100`.
+    /// The indices of the first and the last element of the arrays of species.
     long first = 0, last = 0;
     bool has_arrays = false;
     std::vector<XppPair> ends;  ///< Equations of single elements beside an array, such as u0'.

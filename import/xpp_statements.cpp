@@ -80,7 +80,7 @@ private:
         } else if (first == "init" || first == "i") {
             pairs(rest, file_.starts);
         } else if (first == "aux" || first == "set" || first == "only" || first == "o") {
-            return;  // They only choose what XPPAUT shows.
+            return;  // Such statements only choose what XPPAUT shows.
         } else if (first == "wiener" || first == "table" || first == "global" ||
                    first == "markov" || first == "bdry" || first == "b" || first == "solv" ||
                    first == "special" || first == "option" || first == "export" ||
@@ -94,7 +94,7 @@ private:
         }
     }
 
-    /// Reads "a=1, b=2" and "a=1 b=2".
+    /// Reads lists such as "a=1, b=2" and "a=1 b=2".
     void pairs(Span span, std::vector<XppPair>& all) {
         std::string_view words = text(span);
         std::size_t at = 0;
@@ -125,7 +125,7 @@ private:
         for (const XppPair& each : all) file_.options[each.name] = lower(text(each.value));
     }
 
-    /// Takes "[1..50]" from a name, which then means all elements.
+    /// Removes "[1..50]" from a name, which then means all elements of the array.
     bool array(XppPair& pair) {
         const std::size_t open = pair.name.find('[');
         if (open == std::string::npos) return true;

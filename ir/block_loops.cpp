@@ -1,5 +1,6 @@
-// The interpreter's inner loops. Each operation has a separate loop for each combination of scalar
-// and other operands, except all scalars. This file also computes the operations on single words.
+// The interpreter's inner loops. Each operation has a separate loop for every choice of the
+// operands that are scalars, except the choice of all operands. This file also computes the
+// operations on single words.
 //
 // The compiler can vectorise a loop only if it knows which operands are scalars, so a loop whose
 // strides of 0 or 1 are chosen at run time would be slower.

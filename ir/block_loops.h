@@ -15,8 +15,9 @@ template <typename Number>
 using BlockLoop = void (*)(Number* out, const Number* a, const Number* b, const Number* c,
                            std::int64_t count);
 
-/// Returns the loop of an operation. The operation's result must depend only on its operands. If
-/// bit k of `scalar_operands` is set, operand k is a scalar. At least one operand is not a scalar.
+/// Returns the loop that applies `op`. The operation's result must depend only on its operands. If
+/// bit k of `scalar_operands` is set, operand k is a scalar. At least one operand must not be a
+/// scalar.
 template <typename Number>
 BlockLoop<Number> block_loop(Op op, unsigned scalar_operands);
 

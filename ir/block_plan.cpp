@@ -70,8 +70,8 @@ private:
         }
     }
 
-    /// Values of cells that the loop reads are released only after the loop, because the loop reads
-    /// them again for each link.
+    /// Values of cells that the loop reads are released after the loop and not within it, because
+    /// the loop reads these values again for each link.
     void locate_loop(const LinkLoop& loop) {
         for (const ValueId id : loop.before) locate(id);
         for (const ValueId id : loop.reductions) {
@@ -143,8 +143,8 @@ private:
     const IdVector<ValueId, LoopLevel> levels_;
     const CellSchedule schedule_;
     IdVector<ValueId, Location> locations_;
-    IdVector<ValueId, std::uint32_t> readers_;  ///< The number of instructions that have yet to
-                                                ///< read each value.
+    /// The number of instructions that have yet to read each value.
+    IdVector<ValueId, std::uint32_t> readers_;
     bool is_in_loop_ = false;
     std::vector<ValueId> read_in_loop_;
     std::vector<std::uint32_t> free_;

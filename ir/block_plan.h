@@ -17,14 +17,15 @@ namespace cascade::interpreting {
 
 inline constexpr std::int64_t block_cells = 256;
 
-/// The location of a value while a block is computed.
+/// Where a value is stored while a block is computed.
 struct Location {
     enum class Kind : std::uint8_t {
-        nowhere,  ///< For operands beyond the operation's arity.
-        scalar,   ///< Uniform. `index` is the number of the scalar.
-        field,    ///< In memory, in the cell itself. `index` is a field slot.
-        beside,   ///< In memory, in a neighbouring cell. `index` is a Neighbour's payload.
-        vector,   ///< In a register. `index` is the number of the register.
+        nowhere,  ///< The operation has no such operand.
+        scalar,   ///< The value is uniform. `index` is the number of the scalar.
+        field,    ///< The value is in memory, in the cell itself. `index` is a field slot.
+        /// The value is in memory, in a neighbouring cell. `index` is a Neighbour's payload.
+        beside,
+        vector,  ///< The value is in a register. `index` is the number of the register.
     };
     Kind kind = Kind::nowhere;
     std::uint32_t index = 0;
@@ -42,10 +43,10 @@ struct ScalarStep {
 template <typename Number>
 struct BlockStep {
     Op op = Op::constant;
-    std::uint64_t payload = 0;  ///< One slot or two, as `op` requires.
+    std::uint64_t payload = 0;  ///< The slot or the two slots that `op` reads.
     std::uint32_t target = 0;
     std::array<Location, 3> operands{};
-    BlockLoop<Number> loop = nullptr;  ///< Null unless the result depends only on the operands.
+    BlockLoop<Number> loop = nullptr;  ///< Null if the result depends on more than the operands.
 };
 
 /// Reduces a value of links to a value of cells. The result is in register `target`.
@@ -55,7 +56,8 @@ struct Reduction {
     Location operand;
 };
 
-/// Steps that are computed once per block or, if the section has reductions, once for each link.
+/// Steps and the reductions that read their results. Without reductions, each step is computed once
+/// per block; with reductions, once for each link.
 template <typename Number>
 struct Section {
     std::vector<BlockStep<Number>> steps;

@@ -31,8 +31,8 @@ Slot slot_of(const std::string& name, IdVector<Slot, std::string>& names,
     return entry->second;
 }
 
-/// Whether the result of an operation is always read as a number, never as bits. All NaNs are then
-/// equivalent.
+/// Whether the result of an operation is always read as a number, never as bits. All results that
+/// are NaN are then equivalent.
 bool yields_number(Op op) {
     return (op >= Op::add && op <= Op::divide) || (op >= Op::square_root && op <= Op::multiply_add);
 }
@@ -42,8 +42,8 @@ bool yields_truth(Op op) { return op == Op::mask || (op >= Op::less && op <= Op:
 
 }  // namespace
 
-// All NaNs become the same word, so that kernels do not depend on which NaN the host's processor
-// produces.
+// Stores every NaN as the same word, so that kernels do not depend on which NaN the host's
+// processor produces.
 ValueId KernelBuilder::number(double value) {
     if (std::isnan(value)) return word(format().nan());
     const std::uint64_t bits = word_of(value, precision());
@@ -153,7 +153,7 @@ ValueId KernelBuilder::emit(Instruction instruction) {
     return id;
 }
 
-/// The value of an instruction, if it is known when the kernel is built.
+/// Returns the value of an instruction if it is known when the kernel is built; otherwise nullopt.
 std::optional<ValueId> KernelBuilder::simplify(const Instruction& instruction) {
     const auto [a, b, c] = instruction.operands;
     const int arity = info(instruction.op).arity;
@@ -180,7 +180,7 @@ ValueId KernelBuilder::fold(const Instruction& instruction) {
     return word(format().is_nan(bits) && yields_number(instruction.op) ? format().nan() : bits);
 }
 
-/// Whether a word is true as a number. Denormal numbers count as zero.
+/// Whether a word, read as a number, is true. Denormal numbers count as zero.
 bool KernelBuilder::is_true_word(std::uint64_t word) const {
     return (word & format().exponent()) != 0;
 }

@@ -21,9 +21,9 @@
 
 namespace cascade {
 
-/// Whether equal products, and equal quotients, become one value. In a kernel that will be
-/// contracted they stay separate, so that keep() can exclude a single one of them from contraction.
-/// contracted() then merges the equal ones.
+/// Whether equal products become one value, and likewise equal quotients. In a kernel that will be
+/// contracted they must stay separate, so that keep() can exclude one of several equal products
+/// from contraction. contracted() then merges the equal values.
 enum class EqualProducts : std::uint8_t { are_one, are_several };
 
 class KernelBuilder {
@@ -36,7 +36,8 @@ public:
     Precision precision() const { return kernel_.precision; }
     WordFormat format() const { return format_of(kernel_.precision); }
 
-    // Sources. Slots are created at first use. The same name gives the same slot.
+    // Sources. A slot is created when its name is first used. Using the name again gives the same
+    // slot.
     ValueId number(double value);      ///< Rounded to the kernel's precision. Denormals become 0.
     ValueId word(std::uint64_t bits);  ///< Modulo 2^32 or 2^64.
     FieldSlot field_slot(const std::string& name);
@@ -46,16 +47,17 @@ public:
     ValueId laplacian(FieldSlot slot);
     /// The value of a field in a neighbouring cell. Each offset is −1, 0 or 1, and all may be 0.
     ValueId neighbour(FieldSlot slot, int dx, int dy, int dz = 0);
-    /// A sum over a cell's links of differences of one field. Only in a kernel for linked cells.
+    /// The sum, over a cell's links, of the differences of one field. Only in a kernel for linked
+    /// cells.
     ValueId over_links(Op op, FieldSlot slot);
     ValueId link_flow(Flow flow);
-    /// A sum of differences, each multiplied by the number that the field `flow.factor` has for the
-    /// link.
+    /// The sum, over a cell's links, of the differences of the field `flow.of`. Each difference is
+    /// multiplied by the number that the field `flow.factor` has for the link.
     ValueId link_weighted(Flow flow);
     /// The value of a field in the cell to which a link leads. Must be inside a reduction.
     ValueId theirs(FieldSlot slot);
-    /// Reductions over a cell's links, only in a kernel for linked cells. `a` may be a value of
-    /// links, or a value of cells, which is the same for each link.
+    /// Reductions over a cell's links, only in a kernel for linked cells. `a` is a value of links
+    /// or a value of cells. A value of cells is the same for all links of a cell.
     ValueId link_sum(ValueId a) { return apply(Op::link_sum, a); }
     ValueId link_least(ValueId a) { return apply(Op::link_least, a); }
     ValueId link_greatest(ValueId a) { return apply(Op::link_greatest, a); }
@@ -121,21 +123,22 @@ public:
     ValueId power(ValueId x, ValueId y);
 
     // Random numbers (ir/random_numbers.cpp).
+
     /// Later random numbers depend on the word `number` instead of the cell's column and row.
     void set_cell(ValueId number) { cell_ = number; }
-    /// The two words that identify the cell in draws of random numbers.
+    /// The two words that identify the cell when random numbers are drawn.
     std::pair<ValueId, ValueId> cell_of_draws() {
         return cell_ ? std::pair(*cell_, word(0)) : std::pair(cell_column(), cell_row());
     }
     /// A random number in (−1, 1), uniform and symmetric. There are 2^23 different values in
     /// binary32, and 2^52 in binary64. The binary64 number begins with the digits of the binary32
-    /// number. Depends only on the cell, the `draw` word (the step, or 0) and the 64-bit `key`
-    /// (seed, stage, parameter, occurrence).
+    /// number. The number depends only on the cell, the `draw` word (the step, or 0) and the 64-bit
+    /// `key` (seed, stage, parameter, occurrence).
     ValueId random_symmetric(ValueId draw, std::uint64_t key);
     /// Reads the 32-bit draw word that draw_uniform() (ir/draw_of_step.h) stored in a uniform.
     ValueId draw_word(ValueId uniform);
-    /// A Gaussian random number with mean 0 and variance 1, of magnitude at most 6.7. Depends on
-    /// the same words as random_symmetric().
+    /// A Gaussian random number with mean 0, variance 1 and a magnitude of at most 6.7. It depends
+    /// on the same words as random_symmetric().
     ValueId random_normal(ValueId draw, std::uint64_t key);
 
     /// Excludes this product or quotient from contraction (ir/contraction.h).
@@ -151,11 +154,11 @@ public:
     /// The finished kernel, without instructions that no result needs. Unused slots remain.
     CellKernel finish() &&;
 
-    /// The id that the next new value will get.
+    /// The id that the next new value will have.
     ValueId next() const { return kernel_.code.next(); }
     const Instruction& operator[](ValueId id) const { return kernel_.code[id]; }
     bool is_constant(ValueId id) const { return kernel_.code[id].op == Op::constant; }
-    /// The number that the value `id` represents. It must be a constant.
+    /// The number in the constant `id`. The value `id` must be a constant.
     double constant(ValueId id) const { return number_of(kernel_.code[id].payload, precision()); }
 
 private:
@@ -165,11 +168,11 @@ private:
     ValueId fold(const Instruction& instruction);
 
     CellKernel kernel_;
-    std::optional<ValueId> cell_;  ///< If set, random numbers depend on this word instead of the
-                                   ///< cell's column and row.
+    /// If set, random numbers depend on this word and not on the cell's column and row.
+    std::optional<ValueId> cell_;
     EqualProducts products_;
-    std::unordered_map<std::uint64_t, ValueId> numbering_;  ///< Values by the hash of their
-                                                            ///< instruction, with linear probing.
+    /// Maps the hash of each instruction to its value, with linear probing.
+    std::unordered_map<std::uint64_t, ValueId> numbering_;
     std::unordered_map<std::string, FieldSlot> field_slots_;
     std::unordered_map<std::string, MaskSlot> mask_slots_;
     std::unordered_map<std::string, UniformSlot> uniform_slots_;

@@ -144,8 +144,8 @@ IdVector<ValueId, bool> varying(const CellKernel& kernel) {
     varies.reserve(kernel.code.size());
     for (const Instruction& instruction : kernel.code) {
         const auto arity = static_cast<std::size_t>(info(instruction.op).arity);
-        // Reductions differ between cells even if their operand does not, because cells differ in
-        // the number of links.
+        // A reduction differs between cells even if its operand does not, because cells have
+        // different numbers of links.
         bool differs =
             is_link_reduction(instruction.op) ||
             (arity == 0 && instruction.op != Op::constant && instruction.op != Op::uniform);

@@ -2,10 +2,10 @@
 // without loops.
 //
 // A kernel is a list of instructions in static single assignment. An instruction's position
-// identifies its value, and an instruction only reads values of earlier ones. The only control flow
-// is `select`. A kernel does not say which cells are neighbours (the executor's stencil does) or
-// where fields are in memory (KernelArguments does). A kernel cannot fail when it runs, because
-// lang/ reports users' errors before it makes a kernel.
+// identifies its value, and an instruction reads only values of earlier instructions. The only
+// control flow is `select`. A kernel does not say which cells are neighbours (the executor's
+// stencil does) or where fields are in memory (KernelArguments does). A kernel cannot fail when it
+// runs, because lang/ reports users' errors before it makes a kernel.
 #pragma once
 
 #include "core/id.h"
@@ -66,10 +66,12 @@ using UniformSlot = Id<struct UniformSlotTag>;
 
 struct Instruction {
     Op op = Op::constant;
-    std::array<ValueId, 3> operands{};  ///< The first `info(op).arity` are used. The rest are 0.
-    std::uint64_t payload = 0;          ///< Bits of a word, or a slot; 0 if unused.
+    /// The first `info(op).arity` elements are the operands. The other elements are 0.
+    std::array<ValueId, 3> operands{};
+    /// The bits of a word, or a slot, as `op` requires; 0 if `op` has no payload.
+    std::uint64_t payload = 0;
 
-    /// The slot that the instruction reads. Its payload must be a slot.
+    /// The slot that the instruction reads. The payload of `op` must be a slot.
     std::uint32_t slot() const { return static_cast<std::uint32_t>(payload); }
     FieldSlot field() const { return FieldSlot(payload); }
 
@@ -80,7 +82,7 @@ struct Instruction {
 /// `dz` slices away. Each offset is −1, 0 or 1, and not all are 0. Along an axis that has only one
 /// cell, executors treat the offset as 0.
 struct Neighbour {
-    FieldSlot slot;  ///< Below 2^27, so that payload() has 32 bits.
+    FieldSlot slot;  ///< Less than 2^27, so that payload() fits in 32 bits.
     int dx = 0, dy = 0, dz = 0;
 
     static constexpr std::uint32_t offset_count = 32, last_offset = 26, own_offset = 13;
@@ -98,9 +100,9 @@ struct Neighbour {
 };
 
 /// The payload of the operations `link_flow` and `link_weighted`: the field `of`, whose differences
-/// are summed, and the field `factor`. In link_flow the difference is multiplied by the sum of
-/// `factor` in the two cells of the link. In link_weighted it is multiplied by the number of
-/// `factor` for the link: the slot's plane has a number for each link (Links::numbers_of).
+/// are summed, and the field `factor`. In link_flow each difference is multiplied by the sum of the
+/// field `factor` in the two cells of the link. In link_weighted each difference is multiplied by
+/// the number that the plane of `factor` has for the link (Links::numbers_of).
 struct Flow {
     FieldSlot factor, of;
 
@@ -112,8 +114,8 @@ struct Flow {
     }
 };
 
-/// Whether an operation sums differences over the links of a cell. A Laplacian does this only on
-/// linked cells.
+/// Whether an operation sums differences over the links of a cell. A Laplacian is such a sum only
+/// on linked cells.
 constexpr bool is_link_sum(Op op) {
     return op == Op::laplacian || op == Op::link_flow || op == Op::link_squares ||
            op == Op::link_weighted || op == Op::gradient_x || op == Op::gradient_y ||
@@ -140,20 +142,21 @@ struct CellKernel {
     Precision precision = Precision::single;  ///< The precision of all words.
     std::vector<ValueId> kept = {};  ///< Values excluded from contraction (ir/contraction.h).
 
-    /// Whether some instruction reads this field in other cells. If so, the field's halo must be
+    /// Whether any instruction reads this field in other cells. If so, the field's halo must be
     /// filled before the kernel runs on a grid.
     bool reads_neighbours(FieldSlot slot) const;
 };
 
-/// For each value, whether it can differ between cells, because it depends on more than constants
-/// and uniforms.
+/// For each value, whether it can differ between cells. Only values that depend on more than
+/// constants and uniforms can.
 IdVector<ValueId, bool> varying(const CellKernel& kernel);
 
-/// For each field, the only result that is computed from it. That result may overwrite the field.
-/// nullopt if several results are computed from the field, or if it is read in other cells.
+/// For each field, the only result that is computed from the field. That result may overwrite the
+/// field. nullopt if several results are computed from the field, or if an instruction reads the
+/// field in other cells.
 IdVector<FieldSlot, std::optional<std::size_t>> sole_results(const CellKernel& kernel);
 
-/// A hash of everything that determines the generated code. Names do not contribute.
+/// A hash of everything that determines the generated code. Names do not change the hash.
 std::uint64_t hash(const CellKernel& kernel);
 
 /// The kernel as text, one value per line: `%7 = multiply %3, %5`. The format is stable.
@@ -161,7 +164,7 @@ std::string print(const CellKernel& kernel);
 
 /// Checks that each operand is computed before it is used, that slots and results exist, and that
 /// no result is of link level (ir/operations.def). Returns a description of the error, or an empty
-/// text. Tests and debug builds call it after every pass that makes a kernel.
+/// text. Tests and debug builds call verify() after every pass that makes a kernel.
 std::string verify(const CellKernel& kernel);
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
 // Rebuilds the kernel in one pass over its code. If both operands of a sum are products, the first
-// is fused, unless only the second has a uniform factor.
+// product is fused, unless only the second product has a uniform factor.
 #include "ir/contraction.h"
 
 #include "ir/builder.h"
@@ -33,7 +33,8 @@ public:
         for (const ValueId id : kernel.kept) is_kept_[id] = true;
     }
 
-    /// Fused products that no other value reads are dropped by finish().
+    /// Rewrites every value and returns the kernel. finish() drops products that were fused and
+    /// that no other value reads.
     CellKernel contracted() && {
         for (const ValueId id : kernel_.code.ids()) renamed_[id] = rewritten(id);
         for (std::size_t k = 0; k < kernel_.results.size(); ++k) {
@@ -80,8 +81,8 @@ private:
         return products_[a]->has_coefficient && !products_[b]->has_coefficient ? a : b;
     }
 
-    /// For a difference, negates the varying factor of the product. A negated uniform factor would
-    /// need another register.
+    /// Fuses a product into a sum or a difference. If the product is subtracted, negates its
+    /// varying factor, because a negated uniform factor would need another register.
     ValueId multiply_add(const Instruction& sum, ValueId fused) {
         const bool is_second = sum.operands[1] == fused;
         auto [first, second, has_coefficient] = *products_[fused];
@@ -96,9 +97,10 @@ private:
     const CellKernel& kernel_;
     KernelBuilder builder_;
     IdVector<ValueId, bool> varies_, is_kept_;
-    IdVector<ValueId, std::optional<Product>> products_;  ///< For each value of the old kernel.
-    IdVector<ValueId, ValueId> renamed_;  ///< For each value of the old kernel, its value in the
-                                          ///< new kernel.
+    /// For each value of the old kernel: the product, if the value is one that may be fused.
+    IdVector<ValueId, std::optional<Product>> products_;
+    /// For each value of the old kernel, its value in the new kernel.
+    IdVector<ValueId, ValueId> renamed_;
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Contraction: makes kernels faster by fusing products with sums, which then round once, and by
-// multiplying with reciprocals.
+// Contraction: makes kernels faster by fusing products with sums, so that each pair rounds only
+// once, and by multiplying with reciprocals instead of dividing.
 //
 // The contracted kernel may give other results than the original, but all executors still give the
 // same bits for it. Whether a sum is contracted depends only on the two values that it adds, so
@@ -12,10 +12,11 @@
 
 namespace cascade {
 
-/// Contracts a kernel. Division of a varying number by a uniform one becomes multiplication by the
-/// reciprocal. A sum or difference with a varying product as an operand becomes a multiply_add. If
-/// both operands are varying products, the first is fused, unless only the second has a uniform
-/// factor. Requires a processor with multiply_add (ir/multiply_add.h).
+/// Contracts a kernel. The division of a varying number by a uniform number becomes a
+/// multiplication by the reciprocal. A sum or difference with a varying product as an operand
+/// becomes a multiply_add. If both operands are varying products, the first product is fused,
+/// unless only the second product has a uniform factor. Requires a processor with multiply_add
+/// (ir/multiply_add.h).
 CellKernel contracted(const CellKernel& kernel);
 
 }  // namespace cascade

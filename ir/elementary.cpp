@@ -34,7 +34,8 @@ struct SplitNumber {
 constexpr ByPrecision<SplitNumber> ln2 = {
     {{0x1.62e8p-1, -0x1.e8082ep-16}, {0x1.62e42fefa38p-1, 0x1.ef35793c7673p-45}}};
 
-/// exp(x) is infinite if x is above this number, and 0 if x is below the negative of this number.
+/// If x is above this number, exp(x) is infinite. If x is below the negative of this number, exp(x)
+/// is 0.
 constexpr ByPrecision<double> exp_reach = {100, 750};
 
 // Coefficients of (e^r − 1 − r) / r² for |r| ≤ 0.347, with an error of 2^−33 (2^−63) of e^r.
@@ -89,7 +90,7 @@ Scaled scaled_exponential(Expression argument) {
     return {(r + curved) + 1, n};
 }
 
-/// e^x / 2, which is finite wherever sinh(x) and cosh(x) are.
+/// e^x / 2, which is finite for every x for which sinh(x) and cosh(x) are finite.
 Expression half_exponential(Expression x) {
     const Scaled power = scaled_exponential(x);
     return power.factor.scaled(power.exponent - 1);
@@ -130,7 +131,8 @@ ValueId KernelBuilder::logarithm(ValueId argument) {
     const Expression curved = s * (h + z * polynomial(z, x.pick(log_coefficients)));
     const Expression small = h - (curved + e * x.pick(ln2).tail);
     const Expression finite = e * x.pick(ln2).head - (small - f);
-    const Expression positive = (x < infinity).choose(finite, x);  // Infinity and NaN stay.
+    // An argument that is infinite or NaN is its own result.
+    const Expression positive = (x < infinity).choose(finite, x);
     const Expression real = equals(x, 0).choose(-infinity, positive);
     return (x < 0).choose(nan, real).id();
 }
@@ -138,7 +140,7 @@ ValueId KernelBuilder::logarithm(ValueId argument) {
 ValueId KernelBuilder::hyperbolic_tangent(ValueId argument) {
     const Expression x(*this, argument);
     const Expression a = x.absolute();
-    // Near 0 the difference below would lose digits by cancellation.
+    // Near 0, the difference of exponentials below would lose digits by cancellation.
     const Expression z = a * a;
     const Expression near = a + a * (z * polynomial(z, x.pick(tanh_coefficients)));
     const Expression growth(*this, exponential((a + a).id()));

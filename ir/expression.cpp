@@ -6,8 +6,8 @@
 namespace cascade {
 namespace {
 
-/// The word of √½. Subtracting this word from the word of a positive number moves the boundary
-/// between two exponents from 1 to √½.
+/// The bits of √½ as a word. Subtracting this word from the word of a positive number moves the
+/// boundary between two exponents from 1 to √½.
 constexpr ByPrecision<std::uint64_t> root_half_bits = {0x3f3504f3, 0x3fe6a09e667f3bcd};
 
 }  // namespace
@@ -21,8 +21,8 @@ Expression polynomial(Expression x, std::span<const double> coefficients) {
     return sum;
 }
 
-// Adding 1.5 · 2^23 (1.5 · 2^52) to a smaller number removes all fractional digits. The last bits
-// of the sum are the integer in two's complement.
+// Adding 1.5 · 2^23 (in binary64 1.5 · 2^52) to a number of smaller magnitude removes all
+// fractional digits. The last bits of the sum are then the integer in two's complement.
 Rounded round_to_whole(Expression x) {
     const WordFormat format = x.format();
     const double rounder = std::ldexp(1.5, format.fraction_bits);

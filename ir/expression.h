@@ -1,8 +1,8 @@
 // Writes formulas over values of a KernelBuilder in infix notation.
 //
-// Internal to ir/. An Expression is a value with its builder. Each of its operators emits one
-// operation of ir/operations.def, which rounds once. The operations are emitted in the order in
-// which C++ evaluates the formula.
+// Internal to ir/. An Expression is a value and the builder that made it. Each operator of
+// Expression emits one operation of ir/operations.def, which rounds once. The operations are
+// emitted in the order in which C++ evaluates the formula.
 #pragma once
 
 #include "ir/builder.h"
@@ -57,8 +57,8 @@ public:
         return {*builder_, builder_->clamp_above(below, builder_->number(high))};
     }
 
-    /// `then` if this value is true, else `otherwise`. Do not use words that are integers as
-    /// conditions: small integers are denormal numbers, which count as false.
+    /// The value `then` where this value is true, and elsewhere `otherwise`. Integer words must not
+    /// be used as conditions: small integers are denormal numbers, which count as false.
     Expression choose(Expression then, Expression otherwise) const {
         return {*builder_, builder_->select(id_, then.id_, otherwise.id_)};
     }
@@ -84,7 +84,7 @@ public:
     }
 
     /// The number without the lower half of its significand. The remaining 12 bits (26 in binary64)
-    /// are few enough that products of two such numbers are exact.
+    /// are so few that the product of two such numbers is exact.
     Expression head() const { return and_word(format().all() << (format().fraction_bits / 2 + 1)); }
 
     /// A word modulo 2^32, so that formulas of 32-bit words are the same in both formats.

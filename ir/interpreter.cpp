@@ -123,8 +123,8 @@ private:
         }
     }
 
-    /// Combines `before`, the result for earlier links, with the value `a` of one more link. The
-    /// result is NaN if either is NaN.
+    /// Combines the result `before` of earlier links with the value `a` of the next link. The
+    /// result is NaN if either value is NaN.
     static Number reduced(Op op, Number before, Number a) {
         const Number value = keeps_denormals() ? a : flushed(a);
         if (op == Op::link_sum) return before + value;
@@ -218,7 +218,7 @@ private:
             }
             return;
         }
-        // All other stencils: adds one pair of opposite neighbours after the other.
+        // All other stencils: adds the opposite neighbours in pairs, one axis after the other.
         bool is_first = true;
         const auto add_pair = [&](const Number* first, const Number* second) {
             for (std::int64_t i = 0; i < count; ++i) {
@@ -274,8 +274,8 @@ private:
         }
     }
 
-    /// `term(link, f_j − f_i, i, j)` is the number that the link from cell i to cell j adds to the
-    /// sum.
+    /// Computes the sum of `term(link, f_j − f_i, i, j)` over the links of each cell i of the
+    /// block, where j is the cell to which the link leads.
     template <typename Term>
     void sum_over_links(Number* __restrict out, const Number* f, const Term& term) const {
         constexpr std::int64_t slice_cells = LinkTable<Number>::slice_cells;
@@ -327,15 +327,16 @@ private:
     const KernelArgumentsOf<Number>& arguments_;
     std::vector<Number> scalars_;
     std::vector<Number> registers_;
-    std::int64_t row_ = 0;  ///< The row of the block in its slice.
+    std::int64_t row_ = 0;  ///< The row that contains the block, counted within its slice.
     std::int64_t slice_ = 0;
     std::int64_t column_ = 0;  ///< The column of the block's first cell.
     std::int64_t count_ = 0;   ///< The number of cells in the block.
-    std::int64_t offset_ = 0;  ///< The index of the block's first element, counted from cell (0, 0,
-                               ///< 0).
+    /// The index of the block's first element, counted from cell (0, 0, 0).
+    std::int64_t offset_ = 0;
     // The link that is being reduced, for each cell of the block.
     std::array<bool, block_cells> has_link_{};
-    /// The index of the element to which the link leads; the cell's own if it has no link.
+    /// The index of the element to which the link leads. If the cell has no such link, the index of
+    /// the cell's own element.
     std::array<std::int64_t, block_cells> targets_{};
 };
 

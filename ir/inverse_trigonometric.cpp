@@ -31,8 +31,8 @@ constexpr double asin_double[] = {
     -0x1.ab1153c532dfap-6, 0x1.133ac6097cf2fp-5};
 constexpr ByPrecision<std::span<const double>> asin_coefficients = {asin_single, asin_double};
 
-/// Coordinates above this number, or below the reciprocal of this number, are scaled before they
-/// are added.
+/// If a coordinate is above this number or below its reciprocal, both coordinates are scaled before
+/// they are added.
 constexpr ByPrecision<double> far_away = {0x1p64, 0x1p512};
 
 /// A multiple of π/4: the rounded number, and its rounding error.
@@ -60,7 +60,8 @@ Expression upper_angle(Expression y, Expression x) {
     const Expression steep = width < y;
     const Expression longer = steep.choose(y, width);
     const Expression shorter = steep.choose(width, y);
-    // Prevents overflow of the sum of both coordinates and underflow of their difference.
+    // The scaling prevents overflow of the sum of both coordinates and underflow of their
+    // difference.
     const double reach = x.pick(far_away);
     const Expression factor =
         (reach < longer).choose(1 / reach, (longer < 1 / reach).choose(reach, x.number(1)));
@@ -91,7 +92,7 @@ Expression upper_angle(Expression y, Expression x) {
 
 /// asin(a) for a from 0 to ½, or acos(a) / 2 for a from ½ to 1. The value is head + tail.
 struct Arc {
-    Expression near;  ///< Whether a is at most ½.
+    Expression near;  ///< Whether a is at most ½, so that the arc is asin(a).
     Expression head;
     Expression tail;
 };

@@ -10,14 +10,15 @@
 
 namespace cascade {
 
-/// Whether kernels copy columns to the halo. In volumes they do not, because most of the time goes
-/// into rows of other slices.
+/// Whether kernels copy columns to the halo. In volumes kernels do not, because reading the rows of
+/// other slices takes most of the time.
 constexpr bool kernels_fill_columns(Stencil stencil) {
     return stencil.x && !stencil.z && !stencil.links;
 }
 
-/// The columns that a call copies to halo columns −1 and `width` of its rows. The result is {-1,
-/// -1}, which means no copy, unless the call computes whole rows and `arguments` names the columns.
+/// The columns that a call copies to halo columns −1 and `width` of its rows. If the call does not
+/// compute whole rows, or if `arguments` names no columns, the result is {-1, -1}, which means no
+/// copy.
 template <typename Number>
 HaloColumns columns_to_fill(const KernelArgumentsOf<Number>& arguments, ColumnRange columns) {
     const bool is_whole = columns.begin == 0 && columns.end == arguments.layout.width;

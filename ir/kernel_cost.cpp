@@ -1,5 +1,5 @@
-// Counts the cost instruction by instruction. A neighbour, mask or link table that is loaded
-// several times counts once.
+// Counts the cost instruction by instruction. A neighbour's value, a mask or a link table that is
+// loaded several times counts once.
 #include "ir/kernel_cost.h"
 
 #include "ir/loop_levels.h"
@@ -16,8 +16,8 @@ namespace cascade {
 
 namespace {
 
-/// For each value, whether it is a negation that only multiply-adds use. Such a negation costs
-/// nothing, because it is part of the multiply-add.
+/// For each value, whether it is a negation that only multiply-adds read. Such a negation costs
+/// nothing, because the multiply-add includes it.
 IdVector<ValueId, bool> signs_of_multiply_adds(const CellKernel& kernel) {
     IdVector<ValueId, bool> is_sign;
     for (const Instruction& instruction : kernel.code) {
@@ -101,7 +101,8 @@ private:
         }
     }
 
-    /// Along an axis that has only one cell, the neighbour is the cell itself.
+    /// The value that reading a neighbour loads. Along an axis that has only one cell, the
+    /// neighbour is the cell itself.
     Read within_stencil(const Neighbour& at) const {
         return {at.slot, stencil_.x ? at.dx : 0, stencil_.y ? at.dy : 0, stencil_.z ? at.dz : 0};
     }
@@ -126,12 +127,13 @@ private:
             if (stencil_.y) load({slot, 0, side, 0});
             if (stencil_.z) load({slot, 0, 0, side});
         }
-        // n pairs of neighbours take 2 n − 1 sums. A product and a difference follow.
+        // n pairs of neighbours take 2 n − 1 sums. A product and a difference follow, so n pairs
+        // take 2 n + 1 operations.
         cost_.operations += 2 * stencil_.axes() + 1;
     }
 
-    /// Identifies the weights that a sum over links reads: those of Laplacians, those of one
-    /// component of gradients, or a slot's own.
+    /// Identifies the link weights that a sum reads. A Laplacian and each component of the gradient
+    /// have their own weights. Any other sum reads the weights in the plane of `slot`.
     struct Weights {
         Op op = Op::laplacian;
         FieldSlot slot{};

@@ -1,4 +1,4 @@
-// Orders the results so that results with common operations are adjacent, and cuts this list into
+// Orders the results so that results that share operations are adjacent, and cuts this list into
 // parts of equal length.
 #include "ir/kernel_parts.h"
 
@@ -11,17 +11,18 @@
 namespace cascade {
 namespace {
 
-// A kernel is not divided if its parts together would take more than this many tenths of the time
-// of the whole kernel.
+// In tenths: a kernel stays whole if its parts together would take more than 12/10 of the time of
+// the whole kernel.
 constexpr std::size_t most_growth = 12;
 
-/// Visits the values from which results are computed, each value once.
+/// Visits the values from which results are computed. Each value is visited once.
 class Walk {
 public:
     explicit Walk(const CellKernel& kernel) : kernel_(kernel), is_met_(kernel.code.size(), false) {}
 
-    /// Visits the values that `root` needs and that no earlier root needs, in no particular order.
-    /// Calls `meet` with each value that the walk reaches and that has been visited before.
+    /// Visits the values from which `root` is computed and that no earlier call has visited, in no
+    /// particular order. Calls `meet` with each value that the walk reaches and that has been
+    /// visited before.
     template <typename Visit, typename Meet>
     void from(ValueId root, Visit visit, Meet meet) {
         open_.push_back(root);
@@ -47,10 +48,9 @@ private:
     std::vector<ValueId> open_;
 };
 
-/// The results in an order in which related results follow each other. A result may share
-/// operations with earlier results: for example, a rate is stored, and the new value is computed
-/// from the same rate. Such a result is moved behind the earlier result that computes the last
-/// shared operation.
+/// The results in an order in which related results follow each other. For example, one result is a
+/// rate, and another is the new value computed from the same rate. A result that shares operations
+/// with earlier results is moved behind the earlier result that computes the last shared operation.
 std::vector<std::size_t> in_families(const CellKernel& kernel) {
     const std::size_t count = kernel.results.size();
     Walk walk(kernel);
@@ -108,7 +108,7 @@ KernelPart part_of(const CellKernel& kernel, std::vector<std::size_t> results) {
     return part;
 }
 
-/// The size of a kernel, as a measure of its run time. Values of links count `links` times, which
+/// The size of a kernel, as a measure of its run time. Values of links count `links` times. `links`
 /// is a typical number of neighbours of a cell.
 std::size_t time_of(const CellKernel& kernel) {
     constexpr std::size_t links = 12;
@@ -126,7 +126,8 @@ std::size_t time_of(const CellKernel& kernel) {
 }  // namespace
 
 std::size_t size_of(const CellKernel& kernel) {
-    constexpr std::size_t loads_of_laplacian = 10;  // In units of one instruction's time.
+    // How many instructions take as long to compile as the loads of one operation.
+    constexpr std::size_t loads_of_laplacian = 10;
     constexpr std::size_t loads_of_neighbour = 2;
     std::size_t size = kernel.code.size();
     for (const Instruction& instruction : kernel.code) {

@@ -1,6 +1,6 @@
-// A periodic axis has a whole number of lattice cells. The hash of a point is a sum of three parts,
-// mixed with the key. Each part belongs to an axis, and all points with the same index along the
-// axis share it.
+// Lattices along axes, and hashes of lattice points. A periodic axis has a whole number of lattice
+// cells. The hash of a point is a sum of three parts, one for each axis, mixed with the key. All
+// points with the same index along an axis share the part of that axis.
 #include "ir/lattice.h"
 
 #include "core/hash.h"
@@ -64,8 +64,8 @@ Expression LatticeHash::mixed(Expression h) const {
 Expression signed_fraction(Expression word, std::size_t which) {
     if (which == 1) word = word.shifted_left(16);
     if (which == 2) word = word.binary(Op::bits_multiply, word.word(0x2545f491));
-    // Moves the lower 32 bits of a word to its upper end, because the result is read as a signed
-    // number.
+    // Moves the lower 32 bits of a word to the upper end of the word, because the result is read as
+    // a signed number.
     const int bits = word.format().bits;
     if (bits > 32) word = word.shifted_left(bits - 32);
     return word.to_number() * std::ldexp(1.0, 1 - bits);

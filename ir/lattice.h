@@ -1,5 +1,5 @@
-// A lattice over the domain, and a hash of its points. Smooth noise and seed lattices are made from
-// them.
+// A lattice over the domain, and a hash of the lattice's points. Smooth noise and seed lattices are
+// made from both.
 //
 // Internal to ir/.
 #pragma once
@@ -13,16 +13,17 @@ namespace cascade {
 struct LatticeAxis {
     Expression side;      ///< The width of a lattice cell, in the unit of coordinates.
     Expression count;     ///< The number of lattice cells along a periodic axis: an integer.
-    Expression position;  ///< The coordinate of the domain's cell, divided by `side`.
+    Expression position;  ///< The coordinate of the cell of the domain, divided by `side`.
     bool is_periodic;
 };
 
-/// A lattice with cells of width `side`, at most 2^20 of them along the axis. Along a periodic axis
-/// the width is adjusted so that the number of lattice cells is an integer of at least 1.
+/// Makes a lattice along one axis, with cells of width `side`. The axis must have at most 2^20 of
+/// these cells. Along a periodic axis the width is adjusted so that the number of lattice cells is
+/// an integer of at least 1.
 LatticeAxis lattice_axis(KernelBuilder& builder, const SpaceAxis& axis, Expression side);
 
-/// The largest integer that is not above the position. If the position is itself an integer,
-/// rounding may give the integer before it.
+/// The largest integer that is at most the position. If the position is itself an integer, rounding
+/// may give the previous integer.
 Expression lattice_floor(Expression position);
 
 /// Converts an index along an axis, −1 … count, to a word. Along a periodic axis, indices beyond
@@ -30,11 +31,11 @@ Expression lattice_floor(Expression position);
 Expression lattice_word(const LatticeAxis& axis, Expression index);
 
 /// The hash of a lattice point: a sum of products of its indices, mixed by lowbias32 (C. Wellons,
-/// "Hash function prospector", 2018, public domain), with a second key added between the two
+/// "Hash function prospector", 2018, public domain), with a second key mixed in between the two
 /// products of lowbias32.
 class LatticeHash {
 public:
-    /// `stream` distinguishes several hashes of one draw.
+    /// `stream` distinguishes several hashes that are made for the same draw.
     LatticeHash(KernelBuilder& builder, const Draw& draw, std::uint32_t stream);
 
     /// The contribution of `word`, the point's index along axis 0, 1 or 2.

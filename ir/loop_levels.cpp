@@ -50,8 +50,8 @@ CellSchedule cell_schedule_of(const CellKernel& kernel,
             .first(static_cast<std::size_t>(info(instruction.op).arity));
     };
     CellSchedule schedule;
-    IdVector<ValueId, std::size_t> loops(kernel.code.size());  // For each value, the number of
-                                                               // loops computed before it.
+    // For each value, how many loops must be complete before it can be computed.
+    IdVector<ValueId, std::size_t> loops(kernel.code.size());
     IdVector<ValueId, bool> is_scheduled(kernel.code.size());
     for (const ValueId id : kernel.code.ids()) {
         for (const ValueId operand : operands(id)) loops[id] = std::max(loops[id], loops[operand]);

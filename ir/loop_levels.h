@@ -9,11 +9,11 @@ namespace cascade {
 
 /// The loop in which a value is computed.
 enum class LoopLevel : std::uint8_t {
-    call,  ///< Outside all loops, once per call. For values that depend on constants and uniforms
-           ///< alone.
+    /// Outside all loops, once per call. For values that depend only on constants and uniforms.
+    call,
     row,   ///< Once per row.
     cell,  ///< Once per vector of cells.
-    link,  ///< Once per link of these cells.
+    link,  ///< Once per link of the cells in a vector.
 };
 
 /// The loop level of every instruction of a kernel.
@@ -21,14 +21,15 @@ IdVector<ValueId, LoopLevel> loop_levels_of(const CellKernel& kernel);
 
 /// One loop over the links of cells. Loop k, counted from 0, computes the reductions that need the
 /// results of k earlier loops. A value of links that several loops need is computed in each of
-/// them.
+/// these loops.
 struct LinkLoop {
-    std::vector<ValueId> before;      ///< Values of cells that the loop needs, computed before it.
+    /// Values of cells that the loop needs. They are computed before the loop.
+    std::vector<ValueId> before;
     std::vector<ValueId> values;      ///< Values of links, computed in the loop.
     std::vector<ValueId> reductions;  ///< Reductions of values of links or of cells.
 };
 
-/// The order in which values of cells are computed: first loop by loop, then all values of cells
+/// The order in which values of cells are computed: first loop by loop, then the values of cells
 /// that no loop needs (`after`). Each list is in ascending order.
 struct CellSchedule {
     std::vector<LinkLoop> loops;

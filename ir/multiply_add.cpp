@@ -1,5 +1,5 @@
-// A separate loop for each combination of scalar and other operands, except all scalars. A function
-// attribute compiles the loops for AVX2 and FMA.
+// The loops for a · b + c: a separate loop for every choice of the operands that are scalars,
+// except the choice of all three. A function attribute compiles the loops for AVX2 and FMA.
 #include "ir/multiply_add.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace cascade {
 namespace {
 
-/// The number of combinations of scalar and other operands, without that of three scalars.
+/// The number of choices of the scalar operands, not counting the choice of all three.
 constexpr unsigned varying_choices = 7;
 
 template <unsigned scalars, typename Number>

@@ -1,8 +1,9 @@
 // a · b + c with one rounding: whether the processor has an instruction for it, and loops that use
 // it.
 //
-// Code that runs on every x86-64 processor would have to call the C library for each number. So
-// these loops are compiled for processors with the instruction and used only on such processors.
+// Code compiled for every x86-64 processor would have to call a function of the C library for each
+// number. So these loops are compiled for processors with the instruction and run only on these
+// processors.
 #pragma once
 
 #include "ir/block_loops.h"
@@ -10,8 +11,8 @@
 
 namespace cascade {
 
-/// Whether this processor has an instruction that computes a · b + c with one rounding. Without it,
-/// no kernel may contain a multiply_add.
+/// Whether this processor has an instruction that computes a · b + c with one rounding. Without
+/// this instruction, no kernel may contain a multiply_add.
 bool has_multiply_add();
 
 /// Whether the kernel has a multiply_add.

@@ -1,6 +1,6 @@
 // Gradient noise. Every lattice point has a random gradient, whose components are independent and
-// uniform in (−1, 1). The gradient defines a linear function that is 0 at the point. Between the
-// lattice points these functions are blended.
+// uniform in (−1, 1). The gradient of a lattice point defines a linear function that is 0 at the
+// point. Between the lattice points, their linear functions are blended.
 #include "ir/lattice.h"
 
 #include "core/check.h"
@@ -14,8 +14,9 @@ namespace {
 struct Pair {
     std::size_t axis;                 ///< 0, 1 or 2.
     std::array<Expression, 2> parts;  ///< The points' contributions to hashes.
-    std::array<Expression, 2> away;   ///< From the points to the cell: 0 … 1 and −1 … 0.
-    Expression blend;                 ///< 0 at the first point, 1 at the second.
+    /// The distances from the two points to the cell: 0 … 1 from the first, −1 … 0 from the second.
+    std::array<Expression, 2> away;
+    Expression blend;  ///< 0 if the cell is at the first point, 1 if it is at the second.
 };
 
 /// Blends smoothly from 0 to 1: 6 t^5 − 15 t^4 + 10 t³.
@@ -31,8 +32,8 @@ Pair pair_along(const LatticeHash& hash, std::size_t axis, const LatticeAxis& la
             fade(t)};
 }
 
-/// The value that the linear function of one lattice point has at the cell. Bit k of `corner`
-/// selects the point of the k-th pair.
+/// The value at the cell of one lattice point's linear function. Bit k of `corner` selects one of
+/// the two points of pair k.
 Expression plane_of(const LatticeHash& hash, const std::vector<Pair>& pairs, std::size_t corner) {
     const auto side = [corner](std::size_t k) { return (corner >> k) & 1; };
     Expression parts = pairs[0].parts[side(0)];
@@ -67,8 +68,8 @@ Expression octave(KernelBuilder& builder, const Space& space, Expression side, c
         }
         values.resize(values.size() / 2, side);
     }
-    // The sum is largest if all gradients point to the middle. Then the sum is half the number of
-    // axes.
+    // The largest possible sum is half the number of axes. It is reached if all gradients point to
+    // the middle.
     return values[0] * (2.0 / static_cast<double>(pairs.size()));
 }
 

@@ -77,8 +77,8 @@ Quotient quotient_of(Expression m) {
     return {s, {s_head, rest * inverse}};
 }
 
-/// log2(x) of a positive normal number x. With Quotient's s, ln m = 2 artanh(s) = s · ⅔ · (3 + s² +
-/// …).
+/// log2(x) of a positive normal number x. With the s of Quotient, ln m = 2 artanh(s) = s · ⅔ · (3 +
+/// s² + …).
 Split logarithm_to_base_2(Expression x) {
     const auto [m, e] = decompose(x);
     const auto [s, parts] = quotient_of(m);
@@ -101,7 +101,8 @@ Split logarithm_to_base_2(Expression x) {
     return {head, little - ((head - e) - large)};
 }
 
-/// 2^(p + q). q is small compared with p or with 1, and |p| is at most `large_logarithm`.
+/// 2^(p + q). The magnitude of q is small compared with |p| or with 1, and |p| is at most
+/// `large_logarithm`.
 Expression exponential_to_base_2(Expression p, Expression q) {
     const Expression n = (p + q).rounded();
     const Expression f = (p - n) + q;
@@ -129,7 +130,7 @@ Expression power_of_magnitude(Expression a, Expression exponent) {
 
 struct Parity {
     Expression is_whole;  ///< Whether the number is an integer.
-    Expression odd_bit;   ///< The word 1 for an odd integer, the word 0 for others.
+    Expression odd_bit;   ///< The word 1 for an odd integer, and the word 0 for any other number.
 };
 
 Parity parity_of(Expression y) {
@@ -156,9 +157,9 @@ std::optional<int> small_whole(const KernelBuilder& builder, ValueId y) {
     return static_cast<int>(value);
 }
 
-/// x^n for n > 0. Goes through the bits of n from the lowest, and squares the base after each. For
-/// each bit that is set, multiplies the product by the present base: x^3 = x · (x·x), x^7 = (x ·
-/// x²) · x⁴.
+/// x^n for n > 0. Goes through the bits of n from the lowest to the highest. If a bit is set,
+/// multiplies the product by the present base. Squares the base after each bit. For example, x^3 =
+/// x · (x·x) and x^7 = (x · x²) · x⁴.
 Expression repeated_product(Expression x, unsigned n) {
     std::optional<Expression> product;
     Expression square = x;

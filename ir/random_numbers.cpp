@@ -1,6 +1,6 @@
 // Random numbers: the hash pcg4d (core/hash.h) of cell, draw and key, expanded into operations.
-// Both precisions use words of 32 bits, so both draw the same numbers, with more digits in
-// binary64.
+// Both precisions use words of 32 bits, so both draw the same numbers, except that the numbers in
+// binary64 have more digits.
 #include "ir/expression.h"
 
 #include <array>
@@ -37,7 +37,7 @@ Hash hash_of(Words words) {
         const Expression low = word.low_word();
         word = low.binary(Op::bits_xor, low.shifted_right(16));
     }
-    // The second round of mixing emits only the instructions that these two words need.
+    // In the second round of mixing, emits only the instructions that the first two words need.
     const auto [x, y, z, w] = words;
     const Expression first = sum(x, product(y, w));
     return {first.low_word(), sum(y, product(z, first)).low_word()};
@@ -78,7 +78,7 @@ ValueId KernelBuilder::random_normal(ValueId draw, std::uint64_t key) {
     const auto [first, second] = hash_of_cell(*this, draw, key);
     constexpr ByPrecision<double> two_pi = {0x1.921fb6p+2, 0x1.921fb54442d18p+2};
     const Expression a = (first.shifted_right(1).to_number() + 0.5) * 0x1p-31;
-    // Moves the lower 32 bits of a word to its upper end, because the word is read as a signed
+    // Moves the lower 32 bits of the word to the upper end, because the word is read as a signed
     // number.
     const int bits = format().bits;
     const Expression signed_word = bits == 32 ? second : second.shifted_left(bits - 32);

@@ -1,4 +1,5 @@
-// Reduces a row to eight partial results, one per vector lane, and then combines them in pairs.
+// Reduces a row to eight partial results, one for each vector lane, and then combines the partial
+// results in pairs.
 #include "ir/reduction.h"
 
 #include <array>
@@ -21,7 +22,7 @@ double take_together(ReductionKind kind, double a, double b) {
     return a;
 }
 
-/// Combines adjacent values in pairs until one is left.
+/// Combines adjacent values in pairs until one value is left.
 double fold_pairs(ReductionKind kind, std::span<double> values) {
     for (std::size_t count = values.size(); count > 1; count = (count + 1) / 2) {
         for (std::size_t k = 0; 2 * k < count; ++k) {

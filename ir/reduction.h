@@ -1,9 +1,9 @@
 // Aggregates over all cells of a plane: sums, means, smallest and largest values.
 //
 // Each row is reduced to one number in a fixed order. Then the numbers of the rows are combined in
-// pairs, the results in pairs again, and so on. The order depends only on the grid, so the bits of
-// the result are the same for any number of threads and any vector width. Sums are in binary64. The
-// caller rounds the result.
+// pairs, the results are combined in pairs again, and so on. The order depends only on the grid, so
+// the bits of the result are the same for any number of threads and any vector width. Sums are in
+// binary64. The caller rounds the result.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 // Cube root and hypotenuse, expanded into operations of ir/operations.def.
 //
-// The cube root of m · 2^(3k) is ∛m · 2^k. A polynomial approximates ∛m, and one step of Halley's
-// method (W. Kahan, "Computing a real cube root", 1991) improves the result t. The polynomial's t
-// is cut to 12 bits (26 in binary64), so the residual m − t³ is exact.
+// The cube root of m · 2^(3k) is ∛m · 2^k. A polynomial approximates ∛m, whose value t is cut to 12
+// bits (26 in binary64), so that the residual m − t³ is exact. One step of Halley's method (W.
+// Kahan, "Computing a real cube root", 1991) then improves t.
 #include "ir/expression.h"
 
 namespace cascade {
@@ -22,7 +22,8 @@ constexpr ByPrecision<double> cube_root_of_half = {0x1.965feap-1, 0x1.965fea53d6
 constexpr ByPrecision<double> third_of_one = {0x1.555556p-2, 0x1.5555555555555p-2};
 
 /// Squares of numbers above `large` may overflow, and squares of numbers below `small` may vanish.
-/// Multiplied by `reduce` or `enlarge`, powers of two, such numbers have squares that do neither.
+/// After a multiplication by `reduce` or `enlarge`, which are powers of two, the squares of these
+/// numbers neither overflow nor vanish.
 struct Reach {
     double large, reduce;
     double small, enlarge;
@@ -35,7 +36,7 @@ Expression by_sign(Expression n, double below, double at, double above) {
     return (n < 0).choose(below, (0 < n).choose(above, n.number(at)));
 }
 
-/// One step of Halley's method from t, which has 12 (26) bits, towards ∛y.
+/// One step of Halley's method from t towards ∛y. The number t has 12 (26) bits.
 Expression halley_step(Expression t, Expression y) {
     const Expression square = t * t;  // Exact.
     const Expression square_head = square.head();
@@ -57,11 +58,12 @@ ValueId KernelBuilder::cube_root(ValueId argument) {
                              by_sign(left, x.pick(cube_root_of_half), 1, x.pick(cube_root_of_2));
     const Expression magnitude = halley_step(guess.head(), y).scaled(third);
     const Expression root = magnitude.with_sign_of(x);
-    // Zero, infinity and NaN are their own roots. x + x returns them and flushes denormal numbers.
+    // The roots of zero, infinity and NaN are the numbers themselves. x + x returns these numbers
+    // and flushes denormal numbers.
     return both(0 < a, a < infinity).choose(root, x + x).id();
 }
 
-/// √(x² + y²). Both numbers are scaled so that squares neither overflow nor vanish.
+/// √(x² + y²). Both numbers are scaled so that their squares neither overflow nor vanish.
 ValueId KernelBuilder::hypotenuse(ValueId first, ValueId second) {
     const Expression x = Expression(*this, first).absolute();
     const Expression y = Expression(*this, second).absolute();

@@ -5,8 +5,8 @@
 namespace cascade {
 namespace {
 
-// The remainder of a quotient of this size or larger cannot be computed. Each half of a smaller
-// integral quotient has few enough bits that its products are exact.
+// Quotients from this number on are too large for the remainder to be computed. A smaller integral
+// quotient is split into two halves that have few enough bits for their products to be exact.
 constexpr ByPrecision<double> largest_quotient = {0x1p24, 0x1p52};
 
 Expression whole_below(Expression x) {
@@ -47,7 +47,7 @@ ValueId KernelBuilder::round_up(ValueId argument) {
 
 ValueId KernelBuilder::sign_of(ValueId argument) {
     const Expression x(*this, argument);
-    // The multiplication by 1 flushes a denormal number to zero.
+    // Multiplying by 1 flushes a denormal number to zero.
     const Expression zero_or_nan = x * 1;
     return (x < 0).choose(-1, (0 < x).choose(1, zero_or_nan)).id();
 }
@@ -59,7 +59,7 @@ ValueId KernelBuilder::modulus(ValueId x, ValueId y) {
     const Expression q = whole_below(quotient);
     const Expression product = (q * b).kept();
     const Expression rest = (a - product) - product_error(q, b, product);
-    // If the quotient was rounded up to an integer, the remainder has the wrong sign and is small.
+    // If the quotient was rounded up to an integer, `rest` is small and has the wrong sign.
     const Expression moved = differ_in_sign(rest, b).choose(rest + b, rest);
     const Expression is_meaningful = quotient.absolute() < a.pick(largest_quotient);
     const Expression finite = is_meaningful.choose(moved, a.number(nan));

@@ -10,8 +10,9 @@ namespace {
 /// One of two neighbouring seeds along an axis.
 struct Candidate {
     Expression part;  ///< The seed's contribution to the hash.
-    Expression away;  ///< From the cell to the seed's place before its random displacement, in the
-                      ///< unit of coordinates.
+    /// The distance from the cell to the seed's position before the random displacement, in the
+    /// unit of coordinates.
+    Expression away;
 };
 
 struct Candidates {
@@ -34,8 +35,8 @@ Candidates candidates_along(const LatticeHash& hash, std::size_t axis, const Lat
     return found;
 }
 
-/// Whether the cell is within the radius of one seed. Bit k of `corner` selects the candidate along
-/// axis k.
+/// Whether the distance from the cell to one seed is less than the radius. Bit k of `corner`
+/// selects the candidate along axis k.
 Expression is_near(const LatticeHash& hash, const std::vector<Candidates>& axes, std::size_t corner,
                    Expression squared_radius, Expression jitter) {
     const auto chosen = [&](std::size_t k) { return axes[k].both[(corner >> k) & 1]; };

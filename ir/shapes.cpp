@@ -8,8 +8,8 @@
 namespace cascade {
 namespace {
 
-/// The signed distance from `centre` to the cell along one axis. Along a periodic axis it is the
-/// shortest one: the nearest multiple of the period is subtracted.
+/// The signed distance from `centre` to the cell along one axis. Along a periodic axis the nearest
+/// multiple of the period is subtracted, which gives the shortest distance.
 Expression distance_along(KernelBuilder& builder, const SpaceAxis& axis, ValueId centre) {
     const Expression distance = Expression(builder, axis.coordinate) - Expression(builder, centre);
     if (!axis.is_periodic) return distance;

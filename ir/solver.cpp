@@ -1,4 +1,4 @@
-// Properties of the solvers.
+// The properties of each solver.
 #include "ir/solver.h"
 
 #include "core/check.h"
@@ -53,12 +53,13 @@ int order_of(Solver solver) { return row(solver).order; }
 
 int order_of_estimate(Solver solver) {
     if (is_adaptive(solver)) return order_of(solver);
-    if (is_locally_implicit(solver)) return 2;  // The embedded method has order 1.
+    // The method embedded in a locally implicit solver has order 1.
+    if (is_locally_implicit(solver)) return 2;
     return std::min(order_of(solver) + 1, 3);
 }
 
-/// Stabilised solvers with s stages take (s² + s) / 2 (rkl1) or (s² + s − 2) / 4 (rkl2) steps of
-/// Euler at once, each of which is stable down to −2 (Meyer, Balsara and Aslam 2014, equations 15
+/// With s stages, rkl1 takes (s² + s) / 2 and rkl2 takes (s² + s − 2) / 4 steps of Euler at once.
+/// Each Euler step is stable for λ · step down to −2 (Meyer, Balsara and Aslam 2014, equations 15
 /// and 24).
 double stability_interval(Solver solver, std::uint32_t stages) {
     const double s = stages;
@@ -72,7 +73,8 @@ std::uint32_t least_stages(Solver solver) { return solver == Solver::rkl1 ? 1 : 
 std::uint32_t stages_for(Solver solver, double ratio) {
     CHECK(is_stabilised(solver), "only stabilised solvers choose their stages");
     std::uint32_t stages = least_stages(solver);
-    // Written with a negation so that a NaN gives the largest number of stages.
+    // The negated comparison makes the loop end with the largest number of stages if `ratio` is
+    // NaN.
     while (stages < most_stages && !(stability_interval(solver, stages) >= 2 * ratio)) stages += 2;
     return stages;
 }

@@ -18,19 +18,21 @@ enum class Solver : std::uint8_t {
 /// The properties of a solver, as bits.
 enum class SolverTrait : std::uint8_t {
     none = 0,
-    speed_by_cell = 1 << 0,     ///< The time step may vary by cell.
-    in_turn = 1 << 1,           ///< Species are changed one after the other.
-    adaptive = 1 << 2,          ///< Chooses its steps by an error estimate.
-    stabilised = 1 << 3,        ///< Uses more stages for longer steps (Runge-Kutta-Legendre).
-    semi_implicit = 1 << 4,     ///< Treats diffusion implicitly or exactly, and all other terms by
-                                ///< their rates at the old step.
-    locally_implicit = 1 << 5,  ///< Treats the reaction in each cell implicitly, and diffusion
-                                ///< explicitly.
+    speed_by_cell = 1 << 0,  ///< The time step may vary by cell.
+    in_turn = 1 << 1,        ///< Species are changed one after the other.
+    adaptive = 1 << 2,       ///< The solver chooses its steps by an error estimate.
+    stabilised = 1 << 3,  ///< The solver uses more stages for longer steps (Runge-Kutta-Legendre).
+    /// The solver treats diffusion implicitly or exactly, and all other terms by their rates at the
+    /// old step.
+    semi_implicit = 1 << 4,
+    /// The solver treats the reaction in each cell implicitly, and diffusion explicitly.
+    locally_implicit = 1 << 5,
 };
 bool has(Solver solver, SolverTrait trait);
 
 std::string_view name_of(Solver solver);
-/// The solver of this name. `imex2`, which no longer exists, gives its successor `etdrk4`.
+/// The solver of this name; nullopt if there is none. `imex2`, which no longer exists, gives its
+/// successor `etdrk4`.
 std::optional<Solver> solver_of(std::string_view name);
 std::vector<std::string> solver_names();
 
@@ -54,13 +56,13 @@ inline bool takes_speed_by_cell(Solver solver) { return has(solver, SolverTrait:
 inline bool changes_in_turn(Solver solver) { return has(solver, SolverTrait::in_turn); }
 /// The order p: the error of a whole run is proportional to (step length)^p.
 int order_of(Solver solver);
-/// The p for which the estimated error of one step is proportional to (step length)^p. For adaptive
-/// solvers and `ros2` the estimate comes from the embedded pair. For other solvers, see
+/// The p for which the estimated error of one step is proportional to (step length)^p. Adaptive
+/// solvers and `ros2` take the estimate from their embedded pair. For other solvers, see
 /// solvers/error_estimate.h.
 int order_of_estimate(Solver solver);
 /// The solver is stable if −λ · step is below this number for every negative eigenvalue λ of the
-/// Jacobian of the rates, or of the part of the rates that is treated explicitly. `stages` is the
-/// number of stages of a stabilised solver.
+/// Jacobian of the rates. If the solver treats a part of the rates implicitly, only the Jacobian of
+/// the explicit part counts. `stages` is the number of stages of a stabilised solver.
 double stability_interval(Solver solver, std::uint32_t stages = 1);
 
 /// The smallest odd number of stages with which a stabilised solver can take stable steps `ratio`

@@ -1,7 +1,8 @@
 // Shapes, smooth noise and seed lattices as functions of a cell's position.
 //
-// A position has a coordinate along each axis. The unit is the longest side of the domain. Along a
-// periodic axis these functions are periodic. An axis that has only one cell is left out.
+// A position has a coordinate along each axis. The longest side of the domain is the unit of
+// length. Along a periodic axis these functions are periodic. An axis with only one cell has no
+// effect.
 #pragma once
 
 #include "ir/builder.h"
@@ -14,7 +15,7 @@ namespace cascade {
 
 /// One axis of the domain, and the cell's coordinate along it.
 struct SpaceAxis {
-    ValueId coordinate;  ///< 0 … length.
+    ValueId coordinate;  ///< The cell's coordinate, 0 … length.
     double length = 1;   ///< The length of the whole axis, in the same unit.
     bool is_periodic = false;
     bool has_extent = false;  ///< Whether the axis has more than one cell.
@@ -29,19 +30,19 @@ using Space = std::array<SpaceAxis, 3>;
 /// 1 if the distance to `centre` is less than |radius|, else 0.
 ValueId disc(KernelBuilder& builder, const Space& space, std::span<const ValueId> centre,
              ValueId radius);
-/// 1 if the distance to `centre` differs from `radius` by less than half of `width`, else 0.
+/// 1 if the distance to `centre` differs from `radius` by less than half the `width`, else 0.
 ValueId ring(KernelBuilder& builder, const Space& space, std::span<const ValueId> centre,
              ValueId radius, ValueId width);
-/// 1 if along every axis the distance to `centre` is less than half the size, else 0.
+/// 1 if, along every axis, the distance to `centre` is less than half the size of the box, else 0.
 ValueId box(KernelBuilder& builder, const Space& space, std::span<const ValueId> centre,
             std::span<const ValueId> size);
-/// exp(−d² / (2 width²)), with the distance d to `centre`.
+/// exp(−d² / (2 width²)), where d is the distance to `centre`.
 ValueId gauss(KernelBuilder& builder, const Space& space, std::span<const ValueId> centre,
               ValueId width);
-/// 1 if x differs from `position` by less than half of `width`, else 0.
+/// 1 if x differs from `position` by less than half the `width`, else 0.
 ValueId stripe(KernelBuilder& builder, const Space& space, ValueId position, ValueId width);
-/// 1 if x cos(angle) + y sin(angle) differs from `position` by less than half of `width`, else 0.
-/// This is a straight band that does not wrap around.
+/// 1 if x cos(angle) + y sin(angle) differs from `position` by less than half the `width`, else 0.
+/// The stripe is a straight band that does not wrap around.
 ValueId turned_stripe(KernelBuilder& builder, const Space& space, ValueId position, ValueId width,
                       ValueId angle);
 
@@ -54,17 +55,19 @@ struct Draw {
 inline constexpr int most_octaves = 12;
 
 /// Gradient noise (ir/noise.cpp) in −1 … 1 with mean 0, on a lattice of cubes of side `scale`.
-/// Sources: K. Perlin, "An image synthesizer", SIGGRAPH 1985, with the fade of his "Improving
-/// noise", SIGGRAPH 2002. The noise is a sum of `octaves` (1 … most_octaves), each of which has
-/// half the scale and half the amplitude of the previous one. The sum is scaled to −1 … 1. Along a
-/// periodic axis, `scale` is replaced by the nearest number that divides the length of the axis.
+/// Sources: K. Perlin, "An image synthesizer", SIGGRAPH 1985, with the fade function of K. Perlin,
+/// "Improving noise", SIGGRAPH 2002. The noise is a sum of `octaves` terms (1 … most_octaves), each
+/// of which has half the scale and half the amplitude of the previous term. The sum is scaled to −1
+/// … 1. Along a periodic axis, `scale` is replaced by the nearest number that divides the length of
+/// the axis.
 ValueId smooth_noise(KernelBuilder& builder, const Space& space, ValueId scale, int octaves,
                      const Draw& draw);
 
 /// The positions of a lattice's seeds.
 enum class LatticeKind {
-    square,   ///< One seed in the middle of each square of side `spacing`.
-    diamond,  ///< Two seeds: at a quarter and at three quarters of both sides (a quincunx).
+    square,  ///< One seed in the middle of each square of side `spacing`.
+    /// Two seeds in each square: at a quarter and at three quarters of both sides (a quincunx).
+    diamond,
 };
 
 /// Seed lattices (ir/seeds.cpp): 1 where the distance to a seed is less than `radius`, else 0. Each

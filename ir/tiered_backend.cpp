@@ -1,5 +1,5 @@
-// One worker thread compiles the wanted kernels in order, and then the expected ones. One atomic
-// pointer switches a kernel to native code.
+// One worker thread compiles first the wanted kernels in order, and then the expected kernels. An
+// atomic pointer in each kernel switches it to native code.
 #include "ir/tiered_backend.h"
 
 #include "ir/interpreter.h"
@@ -22,13 +22,12 @@
 namespace cascade {
 namespace {
 
-/// The fixed cost of interpreting a row, as the number of cells whose interpretation takes the same
-/// time.
+/// Interpreting a row costs a fixed time, as much as interpreting this number of cells.
 constexpr std::int64_t cells_per_row = 64;
 
-/// The number of cells without links whose interpretation takes as long as one cell of this kernel.
-/// An instruction inside a loop over links is compiled once but runs for each link. It counts twice
-/// per link, because it gathers values from other cells.
+/// The number by which one cell of this kernel counts towards `cells_worth_compiling`: 1 if the
+/// kernel has no loops over links. An instruction inside a loop over links is compiled once but
+/// runs for each link. It counts twice per link, because it gathers values from other cells.
 std::int64_t weight_of(const CellKernel& kernel, Stencil stencil) {
     constexpr double links = 12;
     const double once = cost_of(kernel, stencil, 1).operations;
@@ -45,7 +44,7 @@ public:
 
     explicit Worker(Backend& native) : native_(native) {}
 
-    /// Starts the thread if it does not run yet. Returns false if it cannot be started.
+    /// Starts the thread if it does not run yet. Returns false if the thread cannot be started.
     bool start();
     /// Compiles the kernels that are wanted now, then ends the thread.
     void stop();
@@ -56,8 +55,8 @@ public:
     /// Tells the thread that more kernels are wanted. Allocates no memory, because computing
     /// threads call it.
     void wake();
-    /// Waits until the kernel is compiled or refused, or will never be compiled. Called by
-    /// computing threads.
+    /// Waits until the kernel is compiled or refused, or until it is certain that it will never be
+    /// compiled. Called by computing threads.
     void wait_for(const TieredKernel& kernel);
 
 private:
@@ -77,16 +76,15 @@ private:
     std::mutex mutex_;
     std::condition_variable changed_;
     bool is_stopping_ = false;
-    std::condition_variable settled_;                   ///< Notified when a kernel is compiled or
-                                                        ///< refused.
-    std::vector<std::shared_ptr<TieredKernel>> begun_;  ///< Kernels that wait for compilation, in
-                                                        ///< the order of begin().
-    const TieredKernel* in_work_ = nullptr;  ///< The wanted kernel that is being compiled; else
-                                             ///< null.
+    /// Notified when a kernel is compiled or refused.
+    std::condition_variable settled_;
+    /// Kernels that wait for compilation, in the order of begin().
+    std::vector<std::shared_ptr<TieredKernel>> begun_;
+    const TieredKernel* in_work_ = nullptr;  ///< The wanted kernel that is being compiled, or null.
     std::deque<Source> expected_;
 };
 
-/// A kernel that is interpreted at first and native later.
+/// A kernel that is interpreted at first and runs native code later.
 class TieredBackend::Worker::TieredKernel final : public Kernel {
 public:
     TieredKernel(const CellKernel& kernel, Stencil stencil, KernelPointer interpreted,
@@ -141,8 +139,8 @@ private:
         present_.load(std::memory_order_acquire)->run(arguments, cells);
     }
 
-    /// Counts `cells` cells that are about to be interpreted. Once the kernel has been used often
-    /// enough, requests its compilation or waits for it.
+    /// Counts `cells` cells that are about to be interpreted. Once enough cells have been
+    /// interpreted, requests the kernel's compilation or waits for it.
     void count(std::int64_t cells) const {
         const std::int64_t before = interpreted_cells_.fetch_add(cells, std::memory_order_relaxed);
         if (before + cells < cells_worth_compiling) return;
@@ -153,7 +151,7 @@ private:
         worker->wake();
     }
 
-    std::unique_ptr<Source> source_;  ///< Null once the kernel is compiled.
+    std::unique_ptr<Source> source_;  ///< What to compile. Null once the kernel is compiled.
     std::int64_t weight_;
     KernelPointer interpreted_, native_;
     std::optional<Failure> refusal_;
@@ -263,8 +261,9 @@ void TieredBackend::Worker::work() {
             in_work_ = kernel.get();
             lock.unlock();
             kernel->compile(native_);
-            kernel.reset();  // This may destroy the kernel, so it happens while the lock is not
-                             // held.
+            // Dropping the reference may destroy the kernel, so it happens while the lock is not
+            // held.
+            kernel.reset();
             lock.lock();
             in_work_ = nullptr;
             settled_.notify_all();

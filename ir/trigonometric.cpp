@@ -1,9 +1,9 @@
 // sin, cos and tan, expanded into operations of ir/operations.def.
 //
 // The angle is reduced to |r| ≤ π/4 by subtracting n quarter turns. π/2 is split into four parts of
-// 11 bits (26 in binary64), whose products with n are exact, and a rest. The rounding errors are
-// collected in a tail of r. So r is correct to its last bit for every angle up to 8192 (2^27), even
-// next to multiples of π/2.
+// 11 bits (26 in binary64), whose products with n are exact, and a remainder. The rounding errors
+// are collected in a tail of r. So r is correct to its last bit for every angle up to 8192 (2^27),
+// even next to multiples of π/2.
 //
 // Angles from 8192 to 2^24 (2^27 to 2^53) are first reduced to less than 3217 (2^26), by
 // subtracting multiples of 4096 (2^26) quarter turns. Then r has an absolute error of at most 2^−33
@@ -16,13 +16,13 @@
 namespace cascade {
 namespace {
 
-/// The constants of the reduction.
+/// The constants by which angles are reduced.
 struct AngleReduction {
     double largest_angle;
     double largest_direct_angle;
-    double many;  ///< Multiples of this number of quarter turns are first subtracted from large
-                  ///< angles.
-    std::array<double, 5> quarter_turn;  ///< Four parts and the rest.
+    /// Multiples of this number of quarter turns are first subtracted from large angles.
+    double many;
+    std::array<double, 5> quarter_turn;  ///< The four parts of π/2 and the remainder.
 };
 constexpr ByPrecision<AngleReduction> angle_reductions = {
     {{0x1p24, 0x1p13, 0x1p12, {0x1.92p+0, 0x1.fb8p-12, -0x1.5ep-23, 0x1.0b8p-34, -0x1.cf72cep-45}},
@@ -34,8 +34,8 @@ constexpr ByPrecision<AngleReduction> angle_reductions = {
 constexpr ByPrecision<double> quarter_turns_per_radian = {0x1.45f306p-1,  // 2/π
                                                           0x1.45f306dc9c883p-1};
 
-// Coefficients of (sin(r)/r − 1) / r² as a polynomial of r², for |r| ≤ 0.79, with an error of 2^−32
-// (2^−63) of the sine.
+// Coefficients of (sin(r)/r − 1) / r² as a polynomial of r², for |r| ≤ 0.79, with a relative
+// error of the sine of 2^−32 in single and 2^−63 in double precision.
 constexpr double sin_single[] = {-0x1.555556p-3, 0x1.111174p-7, -0x1.a05904p-13, 0x1.7c0226p-19};
 constexpr double sin_double[] = {-0x1.5555555555555p-3,  0x1.1111111111069p-7,
                                  -0x1.a01a019ffe538p-13, 0x1.71de3a33a9ca5p-19,
@@ -58,9 +58,9 @@ struct Sum {
     Expression tail;
 };
 
-/// a − b as the rounded difference and its rounding error, if that error is a number of the format
-/// (T. J. Dekker, "A floating-point technique for extending the available precision", Numerische
-/// Mathematik 18, 1971).
+/// The rounded difference a − b, and its rounding error. The error is exact if it is a number of
+/// the format (T. J. Dekker, "A floating-point technique for extending the available precision",
+/// Numerische Mathematik 18, 1971).
 Sum exact_difference(Expression a, Expression b) {
     const Expression difference = a - b;
     return {difference, (a - difference) - b};
@@ -95,7 +95,8 @@ SineAndCosine of_small_angle(Sum r) {
     return {sine, cosine};
 }
 
-/// Sine and cosine of the reduced angle, and the number of quarter turns that were subtracted.
+/// The sine and cosine of a reduced angle, and the number of quarter turns that the reduction
+/// subtracted.
 struct Reduced {
     SineAndCosine rest;
     Expression quarter_turns;  ///< An integer in two's complement.
@@ -121,8 +122,8 @@ Expression nan_if_too_large(Expression angle, Expression value) {
     return is_angle.choose(value, angle.number(nan));
 }
 
-/// The sine of the sum of an angle ≥ 0 and `turned` quarter turns: 0 gives the angle's sine, 1 its
-/// cosine.
+/// The sine of (angle + `turned` quarter turns), for an angle ≥ 0. So `turned` = 0 gives the sine
+/// of the angle, and `turned` = 1 its cosine.
 Expression sine_of(Expression angle, std::uint64_t turned) {
     const auto [rest, quarter_turns] = reduce(angle);
     const Expression quadrant = quarter_turns.plus_word(turned);
@@ -144,7 +145,8 @@ ValueId KernelBuilder::cosine(ValueId argument) {
     return sine_of(Expression(*this, argument).absolute(), 1).id();
 }
 
-/// sin / cos of the reduced angle, or −cos / sin after an odd number of quarter turns.
+/// The tangent is sin / cos of the reduced angle, or −cos / sin after an odd number of quarter
+/// turns.
 ValueId KernelBuilder::tangent(ValueId argument) {
     const Expression x(*this, argument);
     const Expression angle = x.absolute();

@@ -10,8 +10,8 @@
 
 namespace cascade {
 
-/// IEEE 754 binary32 or binary64. A word is in the lower `bits` of a 64-bit integer, whose upper
-/// bits are 0.
+/// IEEE 754 binary32 or binary64. A word is stored in the lower `bits` bits of a 64-bit integer.
+/// The upper bits are 0.
 struct WordFormat {
     int bits;           ///< 32 or 64.
     int fraction_bits;  ///< Bits of the significand without the leading one: 23 or 52.
@@ -40,11 +40,11 @@ constexpr WordFormat format_of(Precision precision) {
 template <typename Number>
 using WordOf = std::conditional_t<std::is_same_v<Number, double>, std::uint64_t, std::uint32_t>;
 
-/// A binary32 number as a word, and back.
+/// Convert a binary32 number to a word, and back.
 inline std::uint32_t to_bits(float number) { return std::bit_cast<std::uint32_t>(number); }
 inline float to_number(std::uint32_t bits) { return std::bit_cast<float>(bits); }
 
-/// A number, rounded to a precision, as a word.
+/// Rounds a number to a precision and returns it as a word.
 inline std::uint64_t word_of(double number, Precision precision) {
     if (precision == Precision::binary64) return std::bit_cast<std::uint64_t>(number);
     return to_bits(static_cast<float>(number));

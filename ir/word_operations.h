@@ -14,7 +14,7 @@
 
 namespace cascade {
 
-/// Whether the result depends only on the operands in one cell or link.
+/// Whether the result depends only on the operands' values in one cell or link.
 constexpr bool is_function_of_operands(Op op) { return op >= Op::add; }
 static_assert(static_cast<int>(Op::add) == static_cast<int>(Op::cell_slice) + 1,
               "the sources come first in the table");
@@ -32,9 +32,9 @@ template <typename Number>
 inline constexpr auto sign_bit =
     static_cast<WordOf<Number>>(format_of(precision_of<Number>).sign());
 
-/// Whether a word is a number other than zero. Compares the word as an integer. If a number is made
-/// from a word and compared with 0, a compiler may test the bits instead, and take a denormal for
-/// true.
+/// Whether a word is a number other than zero. Compares the word as an integer. If the word were
+/// converted to a number and compared with 0, a compiler might test the bits anyway and take a
+/// denormal for true.
 template <typename Number>
 bool is_true(WordOf<Number> word) {
     constexpr WordFormat format = format_of(precision_of<Number>);
@@ -50,8 +50,8 @@ Number arithmetic(Number a, Number b) {
     if constexpr (op == Op::divide) return a / b;
 }
 
-/// The nearest integer. Adding 2^23 (2^52 in binary64) to a smaller number removes all fractional
-/// digits.
+/// The nearest integer. Adding 2^23 (2^52 in binary64) to a number of smaller magnitude removes all
+/// fractional digits.
 template <typename Number>
 Number round_to_even(Number a) {
     constexpr auto all_whole =
@@ -61,8 +61,9 @@ Number round_to_even(Number a) {
 }
 
 /// a · 2^b. A single factor 2^b may be out of range although the product is in range, so a is
-/// multiplied by two factors of about the same size. Their biased exponents are the two halves of b
-/// + 2 · bias. This integer is in the last bits of `sum`. Shifts remove the other bits.
+/// multiplied by two factors of about the same size. The biased exponents of the factors are the
+/// two halves of b + 2 · bias. The last bits of `sum` are this integer. Shifts remove all other
+/// bits.
 template <typename Number>
 Number scale_by_power(Number a, Number b) {
     using Word = WordOf<Number>;

@@ -57,7 +57,7 @@ BodyScope& BodyScope::owner(ValueId id) {
     return *scope;
 }
 
-// The form is made in the scope that owns the value, so that inner loops do not make it again.
+// A form is made in the scope that owns the value, so that inner loops do not make it again.
 llvm::Value* BodyScope::number(ValueId id) {
     BodyScope& scope = owner(id);
     Forms& value = scope.values_[id];
@@ -123,13 +123,14 @@ std::optional<std::uint64_t> BodyScope::constant_word(ValueId id) {
     return std::nullopt;
 }
 
-// LLVM may evaluate operations on constants without flushing.
+// A constant that may be denormal is flushed here, because LLVM may evaluate operations on
+// constants without flushing.
 llvm::Value* BodyScope::operand(ValueId id) {
     return forms(id).may_be_denormal && constant_word(id) ? flushed(id) : number(id);
 }
 
-// LLVM drops an operation whose only effect is to flush. For this, one branch of a choice in which
-// it has no other effect is enough.
+// LLVM drops an operation whose only effect is to flush. It does so even if `partner` is a choice
+// and the operation has no other effect in only one of its branches.
 llvm::Value* BodyScope::operand(ValueId id, ValueId partner, double neutral) {
     if (!forms(id).may_be_denormal) return number(id);
     const bool may_be_neutral =
@@ -137,8 +138,8 @@ llvm::Value* BodyScope::operand(ValueId id, ValueId partner, double neutral) {
     return may_be_neutral ? flushed(id) : operand(id);
 }
 
-// A constant is hidden if the other branch is a constant, too. If the other branch is a variable,
-// the constant is not hidden, so that a clamp becomes the processor's max.
+// A constant is hidden if the other branch is a constant, too. It is not hidden if the other branch
+// is a variable, so that a clamp becomes the processor's max.
 llvm::Value* BodyScope::branch(ValueId id, ValueId other) {
     const auto word = constant_word(id);
     return word && forms(other).is_choice ? hidden(*word) : number(id);

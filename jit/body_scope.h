@@ -13,7 +13,7 @@
 
 namespace cascade {
 
-/// The type of a kernel's numbers, and of its words.
+/// The LLVM types of a kernel's numbers and of its words.
 inline llvm::Type* number_type(llvm::IRBuilderBase& builder, Precision precision) {
     return precision == Precision::single ? builder.getFloatTy() : builder.getDoubleTy();
 }
@@ -45,11 +45,12 @@ struct Forms {
     llvm::Value* number = nullptr;  ///< <N x float>
     llvm::Value* bits = nullptr;    ///< <N x i32>
     llvm::Value* truth = nullptr;   ///< <N x i1>
-    bool is_boolean = false;        ///< The value is 1 or 0; `truth` says which.
+    bool is_boolean = false;        ///< The value is 1 or 0, as `truth` says.
     bool may_be_denormal = false;
-    bool is_choice = false;       ///< A constant, or a choice among constants only.
-    bool may_be_neutral = false;  ///< In some context, such as a branch of a choice, LLVM may find
-                                  ///< out that the value is a constant.
+    bool is_choice = false;  ///< A constant, or a choice among constants only.
+    /// In some context, such as a branch of a choice, LLVM may find out that the value is a
+    /// constant.
+    bool may_be_neutral = false;
 };
 
 /// The values of one loop level. Values of outer levels are looked up in the enclosing scopes,
@@ -74,26 +75,27 @@ public:
     void define(ValueId id, const Forms& forms) { values_[id] = forms; }
     Forms& forms(ValueId id) { return owner(id).values_[id]; }
 
-    // A value in one of its forms.
+    // Return a value in one of its forms.
     llvm::Value* number(ValueId id);
     llvm::Value* bits(ValueId id);
     llvm::Value* truth(ValueId id);
 
-    /// A value as an operand of arithmetic. Flushes the value if LLVM might not flush it in the
+    /// Returns a value as an operand of arithmetic, flushed if LLVM might not flush it in the
     /// operation.
     llvm::Value* operand(ValueId id);
-    /// A value as an operand of an operation that returns it unchanged if `partner`, the other
-    /// operand, is `neutral` or −`neutral`. Flushes the value if LLVM might drop such an operation.
+    /// Returns a value as an operand of an operation that leaves the value unchanged if `partner`,
+    /// the other operand, is `neutral` or −`neutral`. Flushes the value if LLVM might drop such an
+    /// operation.
     llvm::Value* operand(ValueId id, ValueId partner, double neutral);
-    /// A value as a flushed number. LLVM cannot undo the flushing.
+    /// Returns a value as a flushed number. LLVM cannot undo the flushing.
     llvm::Value* flushed_number(ValueId id) {
         return forms(id).may_be_denormal ? flushed(id) : number(id);
     }
     /// Returns a value for use as one branch of a choice whose other branch is `other`.
     llvm::Value* branch(ValueId id, ValueId other);
 
-    /// The word of a value that is the same constant in all cells, even if only LLVM has found that
-    /// out.
+    /// The word of a value that is the same constant in all cells, including values that LLVM has
+    /// found to be constants.
     std::optional<std::uint64_t> constant_word(ValueId id);
     /// A constant that LLVM treats as a variable in all its passes.
     llvm::Value* hidden(std::uint64_t word);
@@ -107,9 +109,9 @@ private:
     Builder& builder_;
     Sources& sources_;
     BodyScope* outer_;
-    std::map<std::uint64_t, llvm::Value*> hidden_;  ///< The variable for each word. Used only in
-                                                    ///< the outermost scope.
-    IdVector<ValueId, Forms> values_;               ///< The forms of each value of this level.
+    /// The variable for each word. Used only in the outermost scope.
+    std::map<std::uint64_t, llvm::Value*> hidden_;
+    IdVector<ValueId, Forms> values_;  ///< The forms of each value of this level.
 };
 
 }  // namespace cascade

@@ -23,12 +23,13 @@ namespace cascade {
 struct CodeModule {
     std::unique_ptr<llvm::LLVMContext> context;
     std::unique_ptr<llvm::Module> module;
-    bool is_large = false;  ///< Contains a kernel above `largest_optimised_kernel`.
+    /// Whether the module contains a kernel above `largest_optimised_kernel`.
+    bool is_large = false;
 };
 
 // The size of a kernel is the number of its instructions plus the loads of its Laplacians. The time
 // that LLVM's optimising code generator takes grows with the square of the size. At this size it
-// takes 0.2 to 0.4 s. Larger kernels get unoptimised code, and generating that takes a time
+// takes 0.2 to 0.4 s. Larger kernels get unoptimised code, which is generated in a time
 // proportional to the size.
 inline constexpr std::size_t largest_optimised_kernel = 3000;
 

@@ -34,8 +34,8 @@ llvm::Value* scaled_by_instruction(BodyScope& scope, llvm::Value* a, llvm::Value
 }
 
 /// The operation `round_to_even`. It uses a single instruction if the processor has one, otherwise
-/// the algorithm of ir/word_operations.h, which gives the same bits. `scale_by_power` below does
-/// the same.
+/// the algorithm of ir/word_operations.h, which gives the same bits. The operation `scale_by_power`
+/// below also has these two forms.
 llvm::Value* rounded_to_even(BodyScope& scope, ValueId a) {
     const Body& body = scope.body();
     Builder& builder = scope.builder();
@@ -52,8 +52,8 @@ llvm::Value* rounded_to_even(BodyScope& scope, ValueId a) {
     return builder.CreateSelect(builder.CreateFCmpOLT(size, all_whole), with_sign, number);
 }
 
-// `added` is hidden, so that LLVM does not know the factors. It would drop a factor of 1, which
-// flushes, and would evaluate a product of known factors without flushing.
+// `added` is hidden, so that LLVM does not know the factors. Otherwise LLVM would drop a factor of
+// 1, although it flushes, and would evaluate a product of known factors without flushing.
 llvm::Value* scaled_by_power(BodyScope& scope, ValueId a, ValueId b) {
     const Body& body = scope.body();
     const WordFormat format = body.format;
@@ -253,7 +253,7 @@ Forms BodyEmitter::emit_arithmetic(const Instruction& instruction) {
     return value;
 }
 
-// LLVM drops a factor of ±1. It then treats the rest as a sum, and drops an added 0.
+// LLVM drops a factor of ±1. It then treats the operation as a sum, and drops an added 0.
 Forms BodyEmitter::emit_multiply_add(const Instruction& instruction) {
     const auto [a, b, c] = instruction.operands;
     Forms value;
@@ -333,9 +333,9 @@ Forms BodyEmitter::emit_word(const Instruction& instruction) {
         return value;
     }
     llvm::Value* b = scope_.bits(instruction.operands[1]);
-    // Amounts above 31 (63) do not occur, but LLVM cannot deduce this. In LLVM the result of such a
-    // shift is undefined, so LLVM might change other code that depends on it. The mask excludes
-    // such amounts. If the amount is a constant, LLVM removes the mask.
+    // Amounts above 31 (63 in binary64) do not occur, but LLVM cannot deduce this. In LLVM the
+    // result of such a shift is undefined, so LLVM might change other code that depends on it. The
+    // mask excludes such amounts. If the amount is a constant, LLVM removes the mask.
     const auto amount = [&] {
         return builder_.CreateAnd(b, body_.bits(static_cast<std::uint64_t>(body_.format.bits - 1)));
     };

@@ -2,8 +2,8 @@
 //
 // Internal to jit/. Before native code computes rows of linked cells, it copies the rows to which
 // their links lead. The copy has the numbers of both fields of a pair side by side, so one access
-// of 64 bits reads both at a neighbour. The loop over links is limited by the number of such
-// accesses.
+// of 64 bits reads both numbers of a neighbour. The number of such accesses limits the speed of the
+// loop over links.
 #pragma once
 
 #include "ir/cell_kernel.h"

@@ -14,12 +14,12 @@
 
 namespace cascade {
 
-/// The functions of the module. Several threads may call them at once. Callers check the options
-/// first.
+/// The functions of the module. Several threads may call them at once. Callers must check the
+/// options first.
 struct CodeGenerator {
-    /// The machine code of a kernel for this processor.
+    /// Compiles a kernel to machine code for this processor.
     Result<CodeImage> (*compile)(const CellKernel& kernel, const KernelShape& shape, int optimise);
-    // The functions of the same names in jit/jit.h.
+    // These do what the functions of the same names in jit/jit.h do.
     Result<std::string> (*dump_llvm)(const CellKernel&, Stencil, const JitOptions&);
     Result<std::string> (*dump_assembly)(const CellKernel&, Stencil, const JitOptions&);
     Result<std::vector<std::uint8_t>> (*compile_object)(const ObjectContent&, Stencil,
@@ -27,8 +27,8 @@ struct CodeGenerator {
     std::vector<std::string> (*known_targets)();
 };
 
-/// The table. The first call loads the module. Fails if there is no module, or if it belongs to
-/// another build.
+/// Returns the table of functions. The first call loads the module. Fails if there is no module, or
+/// if it belongs to another build.
 Result<const CodeGenerator*> code_generator();
 
 /// The name of the module's only symbol, a function. It takes the caller's `code_version` and

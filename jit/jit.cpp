@@ -63,7 +63,7 @@ public:
     bool fills_columns() const override { return kernels_fill_columns(stencil_); }
 
 private:
-    /// Calls the function once for each slice that contains some of the rows.
+    /// Calls the kernel's function once for each slice that contains some of the rows.
     void run_slices(const KernelArgumentsOf<Number>& arguments, RowRange rows,
                     ColumnRange columns) const {
         const PlaneLayout& layout = arguments.layout;
@@ -93,7 +93,7 @@ private:
                 copied.begin * layout.stride, copied.end * layout.stride);
         };
         if (pairs_ == 0) return run(rows, nullptr, {0, 0});
-        // The number of cells per part. The copied pairs of fields for so many cells, and for the
+        // The number of cells per part. The copied pairs of fields for that many cells, and for the
         // cells around them, fit into a second-level cache.
         constexpr std::int64_t cells_of_part = 16384;
         const std::int64_t height = std::max(cells_of_part / layout.width, links.reach);
@@ -113,7 +113,7 @@ private:
         }
     }
 
-    /// The row of these cells, and all rows to which their links lead.
+    /// All rows to which the links of a row's cells lead, including the row itself.
     static RowRange rows_around(const LinkTable<Number>& links, const PlaneLayout& layout,
                                 std::int64_t row, ColumnRange columns) {
         constexpr std::int64_t lanes = LinkTable<Number>::slice_cells;
@@ -138,8 +138,8 @@ private:
 /// A kernel that was compiled or is being compiled.
 using Compiling = std::shared_future<Result<KernelPointer>>;
 
-/// The largest number of stored kernels. If there are more, all are dropped, so that a long session
-/// does not fill the memory. Kernels that are in use are not destroyed.
+/// The largest number of stored kernels. If more are stored, all are dropped, so that a long
+/// session does not fill the memory. Kernels that are in use are not destroyed.
 constexpr std::size_t most_known = 1024;
 
 class JitBackend final : public Backend {
@@ -160,7 +160,7 @@ public:
         Result<KernelPointer> made = failure("not compiled");
         try {
             made = make(kernel, shape, key);
-        } catch (...) {  // Out of memory. Threads that wait get the exception, too.
+        } catch (...) {  // Memory ran out. Waiting threads get the exception, too.
             forget(key);
             promise.set_exception(std::current_exception());
             throw;
@@ -198,7 +198,7 @@ private:
         return shape;
     }
 
-    /// The result of compiling a kernel, without waiting. nullopt if the kernel is not known, and a
+    /// The result of compiling a kernel, without waiting: nullopt if the kernel is unknown, and a
     /// null pointer if it is still being compiled.
     std::optional<Result<KernelPointer>> find_known(const std::string& key) {
         const std::lock_guard lock(mutex_);
@@ -213,7 +213,7 @@ private:
         if (known_.size() >= most_known) known_.clear();
     }
 
-    /// The kernel that another thread has compiled or is compiling. If no thread has, other threads
+    /// The kernel that another thread has compiled or is compiling. If there is none, other threads
     /// that request this kernel wait for `promise` from now on.
     std::optional<Compiling> find_or_announce(const std::string& key,
                                               std::promise<Result<KernelPointer>>& promise) {
@@ -245,7 +245,8 @@ private:
         });
     }
 
-    /// Loads the code that an earlier process stored on disk. Null if there is none.
+    /// Loads the code that an earlier process stored on disk. Null if no code is stored under this
+    /// key.
     std::unique_ptr<LoadedFunction> load_kept(const std::string& file_key) {
         const auto image = cache_.find(file_key);
         if (!image) return nullptr;

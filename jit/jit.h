@@ -14,11 +14,12 @@
 namespace cascade {
 
 struct JitOptions {
-    int lanes = 0;     ///< Cells of binary32 per vector: 4, 8 or 16 (of binary64 half as many). 0
-                       ///< takes the host's widest vectors.
+    /// The number of cells of binary32 per vector: 4, 8 or 16. A vector has half as many cells of
+    /// binary64. 0 selects the host's widest vectors.
+    int lanes = 0;
     int optimise = 2;  ///< The optimisation level of LLVM's code generator, 0 … 3.
-    /// The folder in which compiled kernels are stored for later processes. If it is empty or
-    /// cannot be used, kernels are not stored.
+    /// The folder in which compiled kernels are stored for later processes. Kernels are not stored
+    /// if the folder is empty or cannot be used.
     std::filesystem::path cache = {};
 };
 

@@ -10,7 +10,8 @@ namespace cascade {
 
 struct KernelShape {
     Stencil stencil = Stencil::plane;
-    int lanes = 16;              ///< Cells per vector: 4, 8 or 16; half as many in binary64.
+    /// Cells per vector: 4, 8 or 16 in binary32, half as many in binary64.
+    int lanes = 16;
     bool fills_columns = false;  ///< Whether the kernel copies columns to the halo.
     // Features of the processor, and operations that are fast on it. tuned() in
     // jit/target_machine.h sets them.

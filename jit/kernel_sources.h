@@ -22,21 +22,21 @@ using Builder = llvm::IRBuilder<llvm::InstSimplifyFolder>;
 class Sources {
 public:
     virtual ~Sources() = default;
-    // Sources of the call.
+    // Sources that all cells of a call share.
     virtual llvm::Value* uniform(UniformSlot slot);   ///< <N x float>
     virtual llvm::Value* hidden(std::uint64_t word);  ///< <N x float>; see BodyScope::hidden.
-    // Sources of the row.
+    // Sources that all cells of a row share.
     virtual llvm::Value* cell_row();    ///< <N x i32>
     virtual llvm::Value* cell_slice();  ///< <N x i32>
-    // Sources of the cells.
-    virtual llvm::Value* field(FieldSlot slot);             ///< <N x float>
-    virtual llvm::Value* laplacian(FieldSlot slot);         ///< <N x float>
-    virtual llvm::Value* neighbour(Neighbour at);           ///< <N x float>
-    virtual llvm::Value* link_sum(const Instruction& sum);  ///< <N x float>; all sums except
-                                                            ///< `laplacian`.
-    virtual llvm::Value* mask(MaskSlot slot);               ///< <N x i1>
-    virtual llvm::Value* cell_column();                     ///< <N x i32>
-    // Sources of the links.
+    // Sources that differ from cell to cell.
+    virtual llvm::Value* field(FieldSlot slot);      ///< <N x float>
+    virtual llvm::Value* laplacian(FieldSlot slot);  ///< <N x float>
+    virtual llvm::Value* neighbour(Neighbour at);    ///< <N x float>
+    /// <N x float>; all sums except `laplacian`.
+    virtual llvm::Value* link_sum(const Instruction& sum);
+    virtual llvm::Value* mask(MaskSlot slot);  ///< <N x i1>
+    virtual llvm::Value* cell_column();        ///< <N x i32>
+    // Sources that differ from link to link.
     virtual llvm::Value* theirs(FieldSlot slot);  ///< <N x float>
 };
 

@@ -95,7 +95,7 @@ Value* LinkEntry::address_of_entry(unsigned array, llvm::Type* element) {
     return builder_.CreateInBoundsGEP(element, frame_.extra_argument(array), entry);
 }
 
-/// The element number from which the entry's offsets are counted.
+/// The number of the element from which the entry's offsets are counted.
 Value* LinkEntry::base() {
     if (base_) return base_;
     llvm::Type* index = builder_.getInt32Ty();
@@ -126,8 +126,8 @@ Value* LinkEntry::is_link() {
     return is_link_;
 }
 
-// One load of 64 bits reads four offsets, which are then separated by shifts, because the loop is
-// limited by its number of loads. On an Intel Xeon, this takes as long as four loads.
+// One load of 64 bits reads four offsets, which shifts then separate, because the number of loads
+// limits the loop's speed. On an Intel Xeon, this takes as long as four separate loads.
 void LinkEntry::load_offsets() {
     llvm::Type* half = builder_.getInt16Ty();
     llvm::Type* word = builder_.getInt64Ty();

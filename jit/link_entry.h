@@ -1,5 +1,5 @@
 // Writes the code that reads one entry of a slice of links (core/links.h) for a vector of cells,
-// and the code that makes the copies of fields which it reads.
+// and the code that copies the fields that entries read.
 //
 // Internal to jit/. Offsets, weights and the fields' values at the targets are loaded once, however
 // often they are used.
@@ -59,7 +59,7 @@ public:
         llvm::Value* number = builder.CreateSub(element, first_);
         return builder.CreateInBoundsGEP(both(builder), copies_[pair], number);
     }
-    /// The type of a load or gather of both numbers of a cell.
+    /// The LLVM type with which both numbers of a cell are loaded or gathered at once.
     static llvm::Type* both(Builder& builder) { return builder.getDoubleTy(); }
 
 private:
@@ -102,10 +102,10 @@ private:
     llvm::Value* loaded(llvm::Type* element, llvm::Value* base, llvm::ArrayRef<int> lanes);
     void load_offsets();
     llvm::Value* base();
-    /// The address of this entry's element of an array that has one element for each entry.
+    /// The address of this entry's element in an array with one element per entry.
     llvm::Value* address_of_entry(unsigned array, llvm::Type* element);
     llvm::Value* numbers(unsigned array);
-    /// The numbers of a field that has one number for each link.
+    /// The numbers of a field that has one number per link.
     llvm::Value* numbers_of(FieldSlot slot);
     template <typename Load>
     Load* mark(Load* load) {
@@ -124,11 +124,13 @@ private:
     std::vector<int> lanes_;  ///< The numbers 0, 1, 2, ….
     bool gathers_;  ///< Whether targets are read by gather instructions, one or two per vector.
     std::map<unsigned, llvm::Value*> numbers_;  ///< The vector loaded from each array.
-    std::map<FieldSlot, llvm::Value*> fields_, differences_;  ///< By slot.
-    std::map<FieldSlot, llvm::Value*> of_links_;              ///< By slot: numbers of the links.
+    /// The values at the targets, and their differences from the cells' own values, by slot.
+    std::map<FieldSlot, llvm::Value*> fields_, differences_;
+    /// The numbers of the links, by slot.
+    std::map<FieldSlot, llvm::Value*> of_links_;
     llvm::Value *base_ = nullptr, *is_link_ = nullptr;
-    std::vector<llvm::Value*> offsets_;  ///< One for each lane, or if targets are gathered, one
-                                         ///< vector for all lanes.
+    /// One for each lane, or if targets are gathered, one vector for all lanes.
+    std::vector<llvm::Value*> offsets_;
 };
 
 }  // namespace cascade

@@ -81,7 +81,7 @@ public:
     }
 
 private:
-    /// Memory inside the image. It is released with the image.
+    /// Memory that is a part of the image and is freed with it.
     class InImage final : public InFlightAlloc {
         void abandon(OnAbandonedFunction done) override { done(llvm::Error::success()); }
         void finalize(OnFinalizedFunction done) override { done(FinalizedAlloc()); }
@@ -117,8 +117,8 @@ Result<CodeImage> link_at(std::uint64_t base, std::string_view object, std::stri
 
 Result<CodeImage> link_image(std::string_view object, std::string_view name) {
     // The object is linked at two addresses. If both images have the same bytes, the bytes do not
-    // depend on the address. The addresses differ in each 16-bit part, because an instruction may
-    // contain 16 bits of an address.
+    // depend on the address. The two addresses differ in each of their 16-bit parts, because an
+    // instruction may contain 16 bits of an address.
     constexpr std::uint64_t base = 0, other_base = 0x7a5b'3c5d'8e6f'9000;
     auto image = link_at(base, object, name);
     if (!image) return image;

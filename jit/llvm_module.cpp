@@ -16,11 +16,11 @@ namespace cascade {
 namespace llvm_module {
 namespace {
 
-/// Target machines that are not in use. Only one thread at a time may use a machine. They are kept,
-/// because making one takes a good part of the time of compiling a kernel.
+/// Target machines that are not in use. They are kept, because making one takes a good part of the
+/// time of compiling a kernel. Only one thread at a time may use a machine.
 class IdleMachines {
 public:
-    /// A machine with this optimisation level; null if none is idle.
+    /// Takes a machine with this optimisation level. Null if none is idle.
     std::unique_ptr<llvm::TargetMachine> take(int optimise) {
         const std::lock_guard lock(mutex_);
         const auto found = std::find_if(machines_.begin(), machines_.end(),

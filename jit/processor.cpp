@@ -15,7 +15,7 @@ namespace cascade {
 #if defined(__x86_64__)
 
 int host_lanes() {
-    // These checks, like LLVM's, also ensure that the operating system saves the registers.
+    // Like LLVM's checks, these also ensure that the operating system saves the vector registers.
     if (__builtin_cpu_supports("avx512f")) return 16;
     return __builtin_cpu_supports("avx") ? 8 : 4;
 }
@@ -40,15 +40,16 @@ std::string host_identity() {
     const auto add = [&](unsigned word) {
         identity.append(reinterpret_cast<const char*>(&word), sizeof word);
     };
-    // The leaves of the instruction CPUID: maker; family, model and features; extended features;
-    // states; key locker; AVX10; AMD's features.
+    // The leaves of the instruction CPUID: maker, model, extended features (two leaves), states,
+    // key locker, AVX10, and two leaves of AMD.
     constexpr unsigned leaves[][2] = {{0, 0},          {1, 0},         {7, 0},    {7, 1},
                                       {13, 1},         {0x14, 0},      {0x19, 0}, {0x24, 0},
                                       {0x80000001, 0}, {0x80000008, 0}};
     for (const auto& [leaf, part] : leaves) {
         unsigned a = 0, b = 0, c = 0, d = 0;
         __get_cpuid_count(leaf, part, &a, &b, &c, &d);
-        if (leaf == 1) b = 0;                   // Contains the number of the core that runs this.
+        // Contains the number of the core that executes CPUID.
+        if (leaf == 1) b = 0;
         if (leaf == 13) b = 0;                  // Contains the current state.
         if (leaf == 0x80000008) a = c = d = 0;  // Widths of addresses, and the number of cores.
         for (const unsigned word : {a, b, c, d}) add(word);
@@ -72,7 +73,7 @@ std::string host_identity() {
 #endif
 
 std::string kinds_of_cores(const std::string& cpuinfo) {
-    std::set<std::string> kinds;  // Small, because many cores are of the same kind.
+    std::set<std::string> kinds;  // Only a few, because many cores are of the same kind.
     std::istringstream lines(cpuinfo);
     for (std::string line; std::getline(lines, line);) {
         if (line.starts_with("CPU ") || line.starts_with("Features")) kinds.insert(line);

@@ -21,7 +21,7 @@ Value* KernelFrame::hidden(std::uint64_t word) {
         llvm::ConstantFP::get(number(), number_constant(word, kernel().precision));
     auto* variable = new llvm::GlobalVariable(*function_.getParent(), number(), false,
                                               llvm::GlobalValue::PrivateLinkage, value,
-                                              "hidden");  // The module owns it.
+                                              "hidden");  // The module owns the variable.
     return splat(builder_,
                  builder_.CreateAlignedLoad(number(), variable, alignment(number_bytes())));
 }
@@ -29,7 +29,8 @@ Value* KernelFrame::hidden(std::uint64_t word) {
 void KernelFrame::prefetch(Builder& builder, Value* address) const {
     const auto word = [&](unsigned value) { return builder.getInt32(value); };
     builder.CreateIntrinsic(llvm::Intrinsic::prefetch, {builder.getPtrTy()},
-                            {address, word(0), word(3), word(1)});  // A read; keep in L1; data.
+                            // A read of data, to be kept in the L1 cache.
+                            {address, word(0), word(3), word(1)});
 }
 
 // `table` is the position of the table among the arguments.

@@ -65,7 +65,7 @@ public:
     llvm::Value* stride() { return function_.getArg(6); }
     llvm::Value* row_begin() { return function_.getArg(7); }
     llvm::Value* row_end() { return function_.getArg(8); }
-    /// Argument `number`, counted from 0, of the arguments that follow the common ones.
+    /// An argument that follows the common arguments; `number` counts from 0.
     llvm::Value* extra_argument(unsigned number) {
         return function_.getArg(shared_arguments + number);
     }
@@ -157,8 +157,8 @@ protected:
     KernelFrame& frame_;
     Builder& builder_;
     CellVector vector_;
-    llvm::Value* element_;  ///< The element number of the vector's first cell, hidden from LLVM by
-                            ///< opaque().
+    /// The element number of the vector's first cell, hidden from LLVM by opaque().
+    llvm::Value* element_;
 
 private:
     std::map<FieldSlot, llvm::Value*> loads_;

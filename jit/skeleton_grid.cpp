@@ -1,7 +1,7 @@
 // Reads of neighbours on grids, and prefetches.
 //
-// The innermost loop has the element numbers of the rows above and below in registers. It needs
-// four registers more than there are planes.
+// The innermost loop has the element numbers of the rows above and below in registers. The loop
+// needs four registers more than there are planes.
 #include "jit/skeleton_grid.h"
 
 #include "jit/skeleton.h"
@@ -36,7 +36,7 @@ class RowOffsets {
 public:
     explicit RowOffsets(KernelFrame& frame) : frame_(frame) {}
 
-    /// The distance from a row to the one that is `rows` rows and `slices` slices away.
+    /// The distance from a row to the row that is `rows` rows and `slices` slices away.
     Value* to(int rows, int slices) {
         Value*& offset = offsets_[{rows, slices}];
         if (!offset) {
@@ -52,7 +52,7 @@ public:
     }
 
     /// The distance to the row that is `rows` rows below. It is 0 if the fields are in a near
-    /// cache, because prefetches would then evict values that are read sooner.
+    /// cache, where prefetches would evict values that are read sooner.
     Value* ahead(int rows) {
         Value*& offset = ahead_[rows];
         if (!offset) {
@@ -97,7 +97,7 @@ std::set<Reading> readings_of(const CellKernel& kernel, Stencil stencil) {
 }
 
 // In kernels with more operations per load than this, loads are not the limit, so shifting saves no
-// time. With 4.4 operations per load (chemotaxis) shifting cost 3 %, and with at most 3 it saves 2
+// time. With 4.4 operations per load (chemotaxis), shifting costs 3 %. With at most 3, it saves 2
 // to 8 %.
 constexpr std::size_t most_operations_a_load = 4;
 
@@ -106,7 +106,7 @@ constexpr std::size_t most_shifted_fields = 8;
 
 /// The fields whose eastern neighbours are not loaded. A shift makes the vector of eastern
 /// neighbours from the cells' own vector and the next one, which stays in a register until the loop
-/// reaches it. Western neighbours are loaded, because shifting them, too, would take two more
+/// reaches it. Western neighbours are loaded, because shifts for them would take two more
 /// operations of the arithmetic units.
 std::set<FieldSlot> shifted_fields(const KernelFrame& frame) {
     std::set<FieldSlot> fields;
@@ -130,10 +130,10 @@ std::set<FieldSlot> shifted_fields(const KernelFrame& frame) {
 /// The cells of the next row that the loop over rows prefetches.
 enum class Fetching { nothing, ahead, unless_near };
 
-/// Values that rows computed together share: the row below a row of the group is the group's next
-/// row. Keys are row indices, counted from the group's first row.
+/// Values shared by rows that are computed together: the row below a row of the group is the
+/// group's next row. Keys are row indices, counted from the group's first row.
 struct CommonReadings {
-    std::map<std::pair<int, int>, Value*> elements;  ///< By row and slice.
+    std::map<std::pair<int, int>, Value*> elements;  ///< By row and by slice.
     std::map<Reading, Value*> loads;
     std::map<int, Value*> fetched;  ///< By row. Not used if the fields are in a near cache.
 };
@@ -272,7 +272,7 @@ Value* GridSources::neighbour(Neighbour at) {
     return beside(at.slot, stencil.y ? at.dy : 0, stencil.x ? at.dx : 0, stencil.z ? at.dz : 0);
 }
 
-// The address may be beyond the plane.
+// The prefetched address may be beyond the plane.
 void GridSources::prefetch(FieldSlot slot, int rows, Fetching fetching) {
     Value* ahead = nullptr;
     if (fetching == Fetching::ahead) {
@@ -286,8 +286,8 @@ void GridSources::prefetch(FieldSlot slot, int rows, Fetching fetching) {
 }
 
 /// Fills the halo columns of a row whose cells have been written, if the arguments name columns.
-/// This takes little time: the cells are in the cache or will soon be, and the processor copies
-/// them while it computes later rows.
+/// This takes little time, because the cells are in the cache or will soon be there, and the
+/// processor copies them while it computes later rows.
 void fill_columns(KernelFrame& frame, Value* row_start, Builder& builder) {
     llvm::BasicBlock* fill = frame.new_block("fill_columns");
     llvm::BasicBlock* filled = frame.new_block("columns_filled");
@@ -311,9 +311,9 @@ void fill_columns(KernelFrame& frame, Value* row_start, Builder& builder) {
     builder.SetInsertPoint(filled);
 }
 
-/// Whether two rows are computed at a time. Two rows need fewer loads, because each is a neighbour
-/// of the other. For vectors of a whole cache line this saves less time, because the processor has
-/// enough units for all their loads.
+/// Whether two rows are computed at a time. Two rows need fewer loads, because each of them is a
+/// neighbour of the other. With vectors of a whole cache line this saves less time, because the
+/// processor then has enough units for all loads.
 bool takes_two_rows(const KernelFrame& frame) {
     if (frame.vector_bytes() != cache_line / 2) return false;
     if (frame.kernel().code.size() > largest_twofold_kernel) return false;
@@ -322,9 +322,9 @@ bool takes_two_rows(const KernelFrame& frame) {
                        [](const Reading& each) { return std::get<1>(each) != 0; });
 }
 
-/// Writes the loops over all rows. While a row is computed, the loops may prefetch what the next
-/// row is the first to read: its own cells or, in fields that are read at neighbours, the cells of
-/// the row below it.
+/// Writes the loops over all rows. While a row is computed, the loops may prefetch those cells that
+/// the next row will be the first to read: its own cells or, in fields that are read at neighbours,
+/// the cells of the row below it.
 void build_rows(KernelFrame& frame, KernelLoops& loops, RowOffsets& offsets,
                 const std::set<FieldSlot>& shifted, Fetching fetching, Builder& builder) {
     std::map<FieldSlot, int> rows_ahead;
@@ -352,8 +352,8 @@ void build_rows(KernelFrame& frame, KernelLoops& loops, RowOffsets& offsets,
     builder.CreateRetVoid();
 }
 
-/// Writes the loops over all rows, and for small kernels a second version of them without
-/// prefetches.
+/// Writes the loops over all rows. For small kernels, also writes a second version of the loops
+/// without prefetches.
 void build_loops(KernelFrame& frame, KernelLoops& loops, Builder& builder) {
     RowOffsets offsets(frame);
     const std::set<FieldSlot> shifted = shifted_fields(frame);

@@ -15,7 +15,7 @@ namespace {
 
 using llvm::Value;
 
-/// Writes the code of one entry with `inner`. Takes the totals before the entry and returns the
+/// Writes the code of one entry with `inner`. Takes the totals before the entry, and returns the
 /// totals after it.
 using WriteEntry = llvm::function_ref<std::vector<Value*>(LinkEntry& entry, Builder& inner,
                                                           llvm::ArrayRef<Value*> totals)>;
@@ -42,7 +42,7 @@ private:
     Value* start_of(Value* slice);
     Value* without_minus(Value* sum);
     std::vector<Value*> over_entries(llvm::ArrayRef<llvm::Constant*> first, WriteEntry write);
-    /// A vector with a number in all lanes.
+    /// A vector that has a number in all lanes.
     llvm::Constant* number(double value) const {
         return llvm::ConstantFP::get(frame_.vector_of(frame_.number()), value);
     }
@@ -63,7 +63,7 @@ Value* LinkedSources::start_of(Value* slice) {
                               builder_.getInt64(links_of_entry));
 }
 
-/// Writes the code that finds the links of the vector. Later calls do nothing.
+/// Writes the code that finds the links of the vector. Only the first call has an effect.
 void LinkedSources::find_links() {
     if (first_) return;
     const auto count = [&](std::uint64_t number) { return builder_.getInt64(number); };
@@ -78,8 +78,8 @@ void LinkedSources::find_links() {
     end_ = start_of(builder_.CreateAdd(slice, count(1)));
 }
 
-// A slice may have no entries. While the loop's code is written, code for values that its entries
-// need from the vector's own cells is added to the block before the loop. So this block gets its
+// A slice may have no entries. While the loop is written, code for the values that its entries need
+// from the vector's own cells is added to the block before the loop. So that block gets its
 // terminator last. Until the loop is complete, loads take the place of the loop's phi nodes,
 // because InstSimplifyFolder draws wrong conclusions from unfinished phi nodes.
 std::vector<Value*> LinkedSources::over_entries(llvm::ArrayRef<llvm::Constant*> first,
@@ -112,7 +112,8 @@ std::vector<Value*> LinkedSources::over_entries(llvm::ArrayRef<llvm::Constant*> 
         llvm::PHINode* node = phi(at_first, later);
         load->replaceAllUsesWith(node);
         llvm::cast<llvm::Instruction>(load)->eraseFromParent();
-        return node->getIncomingValue(1);  // The value may have been the replaced load.
+        // `later` may have been the replaced load, so it is read from the node.
+        return node->getIncomingValue(1);
     };
     replace(link, first_, next_link);
     std::vector<Value*> results;

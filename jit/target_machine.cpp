@@ -130,8 +130,8 @@ KernelShape tuned(KernelShape shape, const llvm::TargetMachine& machine) {
 void set_target(llvm::Function& function, const llvm::TargetMachine& machine, int vector_bytes) {
     function.addFnAttr("target-cpu", machine.getTargetCPU());
     function.addFnAttr("target-features", machine.getTargetFeatureString());
-    // Without this attribute, LLVM would split vectors for processors that prefer narrower vectors
-    // than their widest.
+    // Without this attribute, LLVM would split vectors on processors for which it prefers narrower
+    // vectors.
     const std::string bits = std::to_string(8 * vector_bytes);
     function.addFnAttr("prefer-vector-width", bits);
     function.addFnAttr("min-legal-vector-width", bits);

@@ -22,9 +22,8 @@ struct TargetChoice {
 };
 
 /// The target machine for a CPU of the host's architecture. `cpu` is a name that LLVM knows; "" is
-/// the host with all its features. `options` gives the number of lanes; if it gives 0, the lanes of
-/// the CPU's widest vectors are used. Callers must check the options first. Fails for a CPU that
-/// LLVM does not know.
+/// the host with all its features. `options` gives the number of lanes, where 0 means the CPU's
+/// widest vectors. Callers must check the options first. Fails for a CPU that LLVM does not know.
 Result<TargetChoice> choose_target(const std::string& cpu, const JitOptions& options);
 
 /// The number of floats in the widest vectors of this CPU: 4, 8 or 16.
@@ -38,16 +37,16 @@ bool has_multiply_add(const llvm::TargetMachine& machine);
 /// arithmetic process 64 bytes per cycle.
 bool is_short_of_loads(const llvm::TargetMachine& machine);
 
-/// Whether gathering a vector takes less time than loading each of its numbers. This is so on
-/// Intel's processors since 2021, and the function checks for a feature that only these have. On
-/// older Intel processors, the mitigation of "gather data sampling" slows gathers down. On AMD's
-/// processors, gathers take about as long as loads.
+/// Whether gathering a vector takes less time than loading each of its numbers. Gathering is faster
+/// on Intel's processors since 2021, and the function checks for a feature that only these
+/// processors have. On older Intel processors, the mitigation of "gather data sampling" slows
+/// gathers down. On AMD's processors, gathers take about as long as loads.
 bool has_fast_gathers(const llvm::TargetMachine& machine);
 
 /// Whether one instruction rounds to whole numbers, ties to even.
 bool has_rounding(const llvm::TargetMachine& machine);
 
-/// The shape, with all members set that depend on the processor.
+/// Returns the shape with all members set that depend on the processor.
 KernelShape tuned(KernelShape shape, const llvm::TargetMachine& machine);
 
 /// Sets the attributes that let LLVM use the processor's features and that select the arithmetic of

@@ -94,8 +94,8 @@ using PatternCall = std::function<cascade_status(Pattern&)>;
 /// Makes a call, and turns exceptions into a status. The library throws exceptions if memory is
 /// exhausted.
 cascade_status guarded(const std::function<cascade_status()>& call);
-/// These functions make a call while the pattern is locked. The first takes a pattern and the
-/// second a handle. The third takes a handle, too, and fails if the pattern cannot continue.
+/// These functions make a call while the pattern is locked. in_turn() takes a pattern, and the
+/// other two take a handle. with_run() also fails if the pattern cannot continue.
 cascade_status in_turn(OwnPattern& own, const PatternCall& call);
 cascade_status with(cascade_pattern* handle, const PatternCall& call);
 cascade_status with_run(cascade_pattern* handle, const PatternCall& call);
@@ -113,8 +113,8 @@ ProgressWatcher watcher_of(cascade_callback callback, void* user);
 cascade_status give_text(const char** to, std::string text);
 cascade_status give_bytes(const void** to, std::size_t* count, std::string bytes);
 
-/// Fills a structure of the caller. If it comes from an older version of the header, members that
-/// it lacks are left out.
+/// Fills a structure of the caller. If the structure comes from an older version of the header,
+/// leaves out the members that it lacks.
 template <typename Structure>
 cascade_status give(Structure* to, Structure from) {
     if (to == nullptr || to->size < sizeof to->size) {

@@ -15,7 +15,8 @@
 namespace cascade {
 namespace {
 
-// These structures were returned to this thread. Their strings stay valid until its next call.
+// These structures were returned to this thread. Their strings stay valid until the thread's next
+// call.
 thread_local Message given_message;
 thread_local PatternParameter given_parameter;
 
@@ -105,7 +106,7 @@ cascade_status cascade_free(cascade_pattern* pattern) {
     return guarded([&]() -> cascade_status {
         const auto own = patterns().remove(pattern);
         if (!own) return no_pattern();
-        // If another thread is making a call, that call keeps the pattern alive until it returns.
+        // If another thread is making a call, the pattern exists until that call returns.
         own->pattern.cancel();
         return CASCADE_OK;
     });

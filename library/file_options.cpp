@@ -1,4 +1,4 @@
-// Options of pictures are in run/script/picture_options.def, options of files in the table below.
+// The table of the options of files. The options of pictures are in run/script/picture_options.def.
 #include "library/file_options.h"
 
 #include "core/json_size.h"
@@ -17,7 +17,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Reads an option of this name. Returns false if the value is wrong.
+/// The name of an option, and a function that reads its value and returns false if the value is
+/// wrong.
 struct FileOption {
     std::string_view name;
     bool (*read)(const Json& json, RunRequest& request);

@@ -1,5 +1,5 @@
-// The part of the public library (include/cascade/cascade.h) that makes patterns, takes their steps
-// and changes them, by a LiveRun.
+// The part of the public library (include/cascade/cascade.h) that uses a LiveRun to make patterns,
+// take their steps and change them.
 
 #include "core/file.h"
 #include "core/version.h"

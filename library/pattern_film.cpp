@@ -20,9 +20,9 @@
 namespace cascade {
 namespace {
 
-/// The steps between frames if the caller does not give them. For each remaining stage that has
-/// steps, takes the interval, or a fiftieth of the steps if there is no interval. The result is the
-/// smallest of these numbers.
+/// The steps between frames if the caller gives no number. This is the smallest interval of the
+/// remaining stages that have steps. A stage without an interval counts with a fiftieth of its
+/// steps.
 std::int64_t usual_steps_between_frames(const LiveRun& run) {
     constexpr std::int64_t frames_of_stage = 50;
     std::int64_t every = std::numeric_limits<std::int64_t>::max();

@@ -95,7 +95,7 @@ struct Pattern::Implementation {
     }
     bool change(const Change& made) { return running() && took(run->apply(made, control)); }
 
-    /// Takes steps. See Pattern::step(). `watching` are functions to be called meanwhile.
+    /// Takes steps. See Pattern::step(). `watching` gives functions to call between steps.
     std::int64_t advance(std::int64_t count, const ProgressWatcher& watcher, Watching watching);
 
     // The parts of Pattern::write() and Pattern::film().

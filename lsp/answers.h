@@ -21,11 +21,11 @@ struct Asked {
     std::size_t byte = 0;  ///< The byte at the request's position; 0 if it has none.
 };
 
-/// The member of an object. Null if there is none, or if `object` is no object.
+/// A member of an object. Null if the member is missing or `object` is no object.
 const Json& member(const Json& object, const char* name);
-/// The text of a member. Empty if there is none.
+/// The text of a member. Empty if the member is missing or is no text.
 std::string text_of_member(const Json& object, const char* name);
-/// Empty if `json` is no position.
+/// Reads a position. Empty if `json` is no position.
 std::optional<Position> position_from(const Json& json);
 
 Json json_of(Position position);
@@ -46,7 +46,7 @@ Json diagnostics_of(Document& document);
 inline constexpr std::size_t most_diagnostics = 500;
 
 struct Answer {
-    std::string_view request;  ///< The method of the protocol.
+    std::string_view request;  ///< The name of the protocol's method.
     bool has_position;         ///< Whether the request is about a position.
     Result<Json> (*answer)(const Asked&);
 };

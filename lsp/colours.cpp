@@ -1,4 +1,4 @@
-// The colours that calls rgb(…) with numbers denote, and the texts that denote other colours.
+// The colours of calls rgb(…) with numbers, and the texts that give other colours.
 #include "lsp/answers.h"
 
 #include <fmt/format.h>

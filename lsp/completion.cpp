@@ -36,7 +36,7 @@ Result<Json> completion(const Asked& asked) {
     Document& document = asked.document;
     const std::string_view before = std::string_view(document.text()).substr(0, asked.byte);
     std::vector<KnownName> names = completions(before, asked.byte, document.program());
-    // Functions are allowed wherever there may be a value.
+    // Functions are allowed wherever a value may be written.
     const bool is_value = std::ranges::any_of(names, [](const KnownName& name) {
         return name.kind == NameKind::function;
     });

@@ -12,7 +12,7 @@ namespace cascade::lsp {
 namespace {
 
 constexpr int severity_error = 1, severity_warning = 2, severity_information = 3;
-/// Each fix requires a check of the whole text.
+/// Fixes are limited, because each fix requires a check of the whole text.
 constexpr std::size_t most_fixes = 5, largest_fixed_text = std::size_t{1} << 16;
 
 /// The span in the document's own text at which a diagnostic is shown. For a diagnostic in a file

@@ -1,4 +1,5 @@
-// Checks a script when the checked script is needed, at most once for each version of the text.
+// Checks a script only when its checked form is needed, and at most once for each version of the
+// text.
 #include "lsp/document.h"
 
 #include "lsp/file_uri.h"

@@ -21,8 +21,9 @@ using OpenFiles = std::function<std::vector<std::pair<std::filesystem::path, std
 
 class Document {
 public:
-    /// A text without a path, such as a new one, names files relative to the current folder. If a
-    /// script uses a file that is open, the file is read from the editor instead of from the disk.
+    /// A text without a path, such as a new document, names files relative to the current folder.
+    /// If a script uses a file that is open, the file's text comes from the editor instead of the
+    /// disk.
     Document(std::string uri, std::string text, ColumnUnit unit, OpenFiles open);
 
     const std::string& uri() const { return uri_; }
@@ -46,7 +47,7 @@ public:
     /// The names of the present text.
     const NameIndex& names();
 
-    /// The number of the text in the editor, if it gave one.
+    /// The version number that the editor has given to the text, if any.
     std::optional<std::int64_t> version;
     /// Whether the editor has not yet received the diagnostics of the present text.
     bool is_changed = true;

@@ -17,8 +17,8 @@ std::string with_line_ends_of(const std::string& like, std::string text) {
 
 }  // namespace
 
-/// One edit that replaces the lines from the first to the last that differ. There is no edit for a
-/// text that cannot be parsed, because its errors are shown already.
+/// Makes one edit that replaces the lines from the first line that differs to the last one. Makes
+/// no edit for a text that cannot be parsed, because its errors are shown already.
 Result<Json> formatting(const Asked& asked) {
     const std::string& text = asked.document.text();
     Sources sources;
@@ -30,7 +30,8 @@ Result<Json> formatting(const Asked& asked) {
     if (*result == text) return Json::array();
     const auto [from, to] = std::ranges::mismatch(text, *result);
     std::size_t begin = static_cast<std::size_t>(from - text.begin());
-    begin = begin == 0 ? 0 : text.rfind('\n', begin - 1) + 1;  // If there is none, npos + 1 is 0.
+    // If there is no line end, npos + 1 is 0.
+    begin = begin == 0 ? 0 : text.rfind('\n', begin - 1) + 1;
     // The number of equal bytes at the ends of both texts, from the start of a line.
     std::size_t same = 0;
     const std::size_t most = std::min(text.size(), result->size()) - begin;

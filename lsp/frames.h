@@ -1,5 +1,5 @@
-// Messages in a stream of bytes: each has a header with its length (Language Server Protocol 3.17,
-// "Base Protocol").
+// Messages in a stream of bytes. Each has a header that contains its length (Language Server
+// Protocol 3.17, "Base Protocol").
 #pragma once
 
 #include <cstddef>

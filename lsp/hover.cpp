@@ -57,8 +57,8 @@ std::string equations_of(const Script& script, std::string_view system) {
                                                  Notation::unicode, EquationParts::rates));
 }
 
-/// A sentence about the fastest wave that grows from the flat state of a stage. Empty if that is
-/// unknown, or if it would take long to find.
+/// A sentence about the fastest wave that grows from the flat state of a stage. Empty if this wave
+/// is unknown or would take long to find.
 std::string prediction(const Program& program, std::uint32_t stage) {
     const System& system = program.system_of(stage);
     const bool is_cheap = !system.cells && !program.domain.model &&
@@ -149,7 +149,7 @@ std::optional<Card> card_of(Document& document, std::size_t byte) {
 
 Result<Json> hover(const Asked& asked) {
     const std::string& text = asked.document.text();
-    // Only a word that contains this byte or ends directly before it is meant.
+    // The name is the word that contains this byte or ends directly before it.
     const std::size_t end = end_of_word(text, asked.byte);
     const std::size_t begin = end - last_word(std::string_view(text).substr(0, end)).size();
     if (begin == end) return Json();

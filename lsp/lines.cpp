@@ -1,4 +1,4 @@
-// Reads the text once. Later searches begin at the nearest mark.
+// Reads the text once, and sets marks. Later searches begin at the nearest mark.
 #include "lsp/lines.h"
 
 #include "core/utf8.h"

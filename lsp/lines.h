@@ -26,7 +26,7 @@ public:
     /// The position of a byte. A byte within a character counts as the start of the character.
     Position position_of(std::string_view text, std::size_t byte) const;
     /// The byte at a position. A column after the end of the line means the end of the line, and a
-    /// line after the last one the end of the text.
+    /// line after the last line means the end of the text.
     std::size_t byte_at(std::string_view text, Position position) const;
 
 private:

@@ -1,4 +1,5 @@
-// The colours of words that may have several meanings: what each such word means here.
+// The colours of words that may have several meanings, according to the meaning of each word at its
+// place.
 #include "core/utf8.h"
 #include "lang/service/symbols.h"
 #include "lang/syntax/parse.h"
@@ -68,7 +69,7 @@ private:
 };
 
 struct Colour {
-    std::string_view type;  ///< Empty: the token has no colour.
+    std::string_view type;  ///< Empty if the token has no colour.
     unsigned modifiers = 0;
 };
 

@@ -43,7 +43,7 @@ bool is_input_waiting(int in) {
     return ::poll(&input, 1, 0) > 0;
 }
 
-/// The number of bytes read; 0 at the end of the stream.
+/// Reads bytes. Returns their number, or 0 at the end of the stream.
 Result<std::size_t> read_some(int in, std::array<char, 65536>& buffer) {
     for (;;) {
         const ssize_t count = ::read(in, buffer.data(), buffer.size());

@@ -34,8 +34,8 @@ Json notification(const char* method, Json params) {
 
 bool is_id(const Json& id) { return id.is_string() || id.is_number_integer(); }
 
-/// Whether a text is small enough to be parsed as JSON. For a text of brackets, a parser needs many
-/// times the memory of the text.
+/// Whether a text is small enough to be parsed as JSON. For a text of brackets, a parser needs
+/// memory of many times the text's size.
 bool is_parsable(std::string_view text) {
     const JsonSize size = measure_json(text);
     return size.depth <= 64 && size.values <= 2'000'000;

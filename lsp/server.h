@@ -14,7 +14,7 @@
 
 namespace cascade::lsp {
 
-/// The most documents that may be open at a time.
+/// The largest number of documents that may be open at a time.
 inline constexpr std::size_t most_documents = 1000;
 
 class LanguageServer {
@@ -40,7 +40,7 @@ public:
 private:
     using Json = nlohmann::json;
 
-    /// The answer to a request: its result, or an error.
+    /// Answers a request with the request's result or with an error.
     Json answer(const Json& id, const std::string& method, const Json& params);
     Json initialize(const Json& params);
     void take_note(const std::string& method, const Json& params);
@@ -54,7 +54,7 @@ private:
     void log(const std::string& message);
 
     std::map<std::string, std::unique_ptr<Document>, std::less<>> documents_;
-    std::vector<std::string> to_send_;  ///< Messages besides the answer.
+    std::vector<std::string> to_send_;  ///< Messages that are sent besides the answer.
     ColumnUnit unit_ = ColumnUnit::utf16;
     bool is_initialized_ = false, is_shut_down_ = false, has_ended_ = false;
 };

@@ -1,4 +1,4 @@
-// Sorts the words of the tables by the positions at which they have a meaning.
+// Divides the words of the tables into lists by the positions at which they have a meaning.
 #include "lsp/words.h"
 
 #include "ir/solver.h"
@@ -39,7 +39,7 @@ void add_settings(Words& settings, Words& words) {
     for (const LibraryText& text : library_shapes()) words.emplace(text.system_name());
 }
 
-/// Divides the keywords into those that begin a statement and those between operands.
+/// Divides the keywords into keywords that begin a statement and keywords between operands.
 void add_keywords(Words& beginnings, Words& between) {
     for (const std::string_view word : keywords) {
         const bool is_logic = word == "and" || word == "or" || word == "not";

@@ -33,8 +33,8 @@ struct Orientation {
 
 /// The derivative along an axis, per cell. It is of sixth order, so that its error is 1 % for waves
 /// of 6 cells. With f(1) − f(−1) alone, the error would be a sixth. Next to the border of the
-/// domain it is of second order, and a neighbour outside counts as having the value of the cell
-/// itself.
+/// domain, the derivative is of second order, and a neighbour outside counts as having the value of
+/// the cell itself.
 double derivative(const Samples& samples, std::size_t cell, std::size_t axis) {
     constexpr std::array weights{0.75, -0.15, 1.0 / 60};
     double sum = 0;

@@ -17,8 +17,12 @@ struct Features {
     /// The number of connected regions with values above the mean of the smallest and the largest
     /// value.
     double spots = 0;
-    double holes = 0;       ///< The number of connected regions with values below that mean.
-    double area = 0;        ///< The fraction of the cells with values above that mean, 0 … 1.
+    /// The number of connected regions with values below the mean of the smallest and the largest
+    /// value.
+    double holes = 0;
+    /// The fraction of the cells with values above the mean of the smallest and the largest value,
+    /// 0 … 1.
+    double area = 0;
     double angle = 0;       ///< The direction of the stripes in degrees, [0, 180).
     double anisotropy = 0;  ///< 0 without a preferred direction, and 1 for straight stripes.
     double mean = 0;

@@ -10,7 +10,8 @@ namespace cascade::measure {
 struct Regions {
     /// The number of connected regions of cells with values above the threshold.
     std::int64_t above = 0;
-    std::int64_t below = 0;  ///< The number of connected regions of the other cells.
+    /// The number of connected regions of the cells with values at or below the threshold.
+    std::int64_t below = 0;
     /// The fraction of the domain's cells with values above the threshold, 0 … 1.
     double area = 0;
 };

@@ -17,8 +17,9 @@ namespace {
 /// fraction of the variance.
 constexpr double regular_share = 0.75;
 
-/// If waves have at most four cells, the correlation of neighbours along at least one axis is below
-/// this. In the worst case, a diagonal wave in a volume, it is cos(2π / (4 √3)) = 0.62.
+/// If waves are at most four cells long, the correlation of neighbours along at least one axis is
+/// below this. In the worst case, a diagonal wave in a volume, the correlation is cos(2π / (4 √3))
+/// = 0.62.
 constexpr double close_correlation = 0.65;
 
 double correlation_along(const Samples& samples, const Spread& spread, std::size_t axis) {
@@ -33,7 +34,7 @@ double correlation_along(const Samples& samples, const Spread& spread, std::size
     return pairs > 0 ? products / pairs / (spread.squares / spread.count) : 1;
 }
 
-/// Whether neighbours are so weakly correlated that waves may have fewer than `fewest_cells_a_wave`
+/// Whether neighbours are so weakly correlated that waves may be shorter than `fewest_cells_a_wave`
 /// cells.
 bool may_be_unresolved(const Samples& samples) {
     const Spread spread = spread_of([&](const auto& take) {

@@ -41,8 +41,8 @@ struct Samples {
         if (at > 0) return cell - stride(axis);
         return periodic[axis] ? cell + last * stride(axis) : cell;
     }
-    /// The cell at a distance from `cell` along an axis. The distance is in cells, may be negative,
-    /// and may cross sides, which are periodic or mirrored.
+    /// The cell at a distance from `cell` along an axis. The distance is in cells and may be
+    /// negative. If it crosses a side, the field continues periodically or mirrored there.
     std::size_t mirrored(std::size_t cell, std::size_t axis, std::ptrdiff_t distance) const {
         const std::size_t at = position(cell, axis);
         const auto count = static_cast<std::ptrdiff_t>(cells[axis]);

@@ -40,7 +40,7 @@ struct FreeBuffer {
 };
 using Buffer = std::unique_ptr<double[], FreeBuffer>;
 
-/// The values minus their mean. Cells outside the domain have 0.
+/// The values minus their mean. Cells outside the domain get 0.
 Buffer centred(const Samples& samples) {
     Buffer buffer(fftw().alloc_real(samples.count()));
     double sum = 0;
@@ -78,7 +78,7 @@ void transform(const Samples& samples, double* values) {
     fftw().destroy_plan(plan);
 }
 
-/// For one axis, the wave number of every coefficient, and the coefficient's weight in Parseval's
+/// The wave number of every coefficient along one axis, and the coefficient's weight in Parseval's
 /// sum.
 struct AxisModes {
     std::vector<double> wave_number;
@@ -93,7 +93,7 @@ AxisModes modes_of(const Samples& samples, std::size_t axis) {
     for (std::size_t n = 0; n < count; ++n) {
         if (samples.periodic[axis]) {
             const std::size_t waves = std::min(n, count - n);
-            // Whether the mode has no sine coefficient.
+            // Whether the mode has no sine coefficient beside its cosine coefficient.
             const bool is_alone = waves == 0 || 2 * waves == count;
             modes.wave_number.push_back(static_cast<double>(waves) / length);
             modes.weight.push_back((is_alone ? 1 : 2) / cells);

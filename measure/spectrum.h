@@ -31,8 +31,8 @@ Spectrum radial_spectrum(const Samples& samples);
 /// √2 (square) or √3 (hexagonal). NaN for a uniform field.
 double peak_wavelength(const Spectrum& spectrum);
 
-/// The spectrum in wider rings. About twelve of them are below the strongest one. In a large domain
-/// rings are so narrow that chance decides which ring of a broad peak is the strongest.
+/// The spectrum in wider rings, about twelve of which are below the strongest one. In a large
+/// domain rings are so narrow that chance decides which ring of a broad peak is the strongest.
 Spectrum in_wide_rings(const Spectrum& spectrum);
 
 /// The characteristic length of a coarsening pattern, Σ S / Σ |k| S, in the unit of length. The

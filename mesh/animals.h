@@ -1,5 +1,5 @@
 // Animals made for this project, on which patterns grow. They look along +z, and y is up. The
-// surface of each is one component with the topology of a sphere.
+// surface of each animal is one component with the topology of a sphere.
 #pragma once
 
 #include "mesh/limbs.h"
@@ -8,10 +8,11 @@ namespace cascade {
 
 struct Animal {
     LimbBody body;
-    double edge = 0;  ///< Length of the triangles' edges, fine enough for ears, fins and tail.
+    double edge = 0;  ///< Length of the triangles' edges, short enough for ears, fins and tail.
 };
 
-// Lengths are in metres. The creature is an imaginary animal, whose unit of length has no meaning.
+// Lengths are in metres, except for the creature, an imaginary animal whose unit of length has no
+// meaning.
 
 /// A young animal with four legs, a long tail and round ears, 1.5 high.
 Animal creature();
@@ -21,7 +22,7 @@ Animal leopard();
 Animal giraffe();
 /// A zebra with a mane, 1.3 high at its shoulders.
 Animal zebra();
-/// A reef fish, 0.43 long, with a high body. It floats: its lowest fin is at y = 0.
+/// A reef fish, 0.43 long, with a high body. The fish floats: its lowest fin is at y = 0.
 Animal fish();
 /// A sitting frog, 0.1 long.
 Animal frog();

@@ -1,4 +1,4 @@
-// Marching tetrahedra. A table gives the triangles for each set of corners inside.
+// Marching tetrahedra. For each set of corners inside the surface, a table gives the triangles.
 #include "mesh/centred_lattice.h"
 
 #include <algorithm>
@@ -7,7 +7,8 @@ namespace cascade {
 
 namespace {
 
-/// Along an axis there are two more centres than cells, and one more corner.
+/// The number of points in a row. Along an axis there are two more centres than cells, and one more
+/// corner.
 std::int64_t row_length(const CentredLattice& lattice, std::size_t axis, bool is_centre) {
     return lattice.counts()[axis] + (is_centre ? 2 : 1);
 }
@@ -39,9 +40,9 @@ Crossing crossing(const CrossedCorner& a, const CrossedCorner& b) {
 /// Appends the part of the surface within a tetrahedron whose corners 1, 2 and 3 are
 /// counterclockwise seen from opposite corner 0: (v₁ − v₀) · (v₂ − v₀) × (v₃ − v₀) > 0. The part is
 /// a triangle if the surface separates one corner from the others, and a quadrilateral if it
-/// separates two. An even permutation of the corners moves the single corner to index 0, or the two
-/// corners inside to indices 0 and 1. The table contains the triangles for these cases. They were
-/// derived with v₀ at the origin and v₁, v₂, v₃ at the unit vectors.
+/// separates two corners from the others. An even permutation moves the single corner to index 0,
+/// or the two corners inside to indices 0 and 1. The triangles for these two cases were derived
+/// with v₀ at the origin and v₁, v₂, v₃ at the unit vectors.
 void cross(const Tetrahedron& v, CrossedTriangles& triangles) {
     unsigned inside = 0;
     for (unsigned k = 0; k < 4; ++k) inside |= (v[k].value > 0 ? 1u : 0u) << k;
@@ -71,7 +72,7 @@ void cross(const Tetrahedron& v, CrossedTriangles& triangles) {
     }
 }
 
-/// Cuts the tetrahedra around faces of the lattice, by the values of points in given layers.
+/// Cuts the tetrahedra around faces of the lattice. The values of points come from given layers.
 class FaceCrosser {
 public:
     FaceCrosser(const CentredLattice& lattice, CrossedTriangles& triangles)
@@ -106,7 +107,8 @@ Vector3d CentredLattice::place_of(const LatticePoint& point) const {
             coordinate(low_.z, high_.z, 2)};
 }
 
-// Points are numbered layer by layer: centres −1, corners 0, centres 0, … corners n, centres n.
+// Points are numbered layer by layer: layer −1 of centres, layer 0 of corners, layer 0 of centres,
+// … layer n of corners, layer n of centres.
 
 std::uint32_t CentredLattice::number_of(const LatticePoint& point) const {
     const auto layers = static_cast<std::uint32_t>(point.place[2] + (point.is_centre ? 1 : 0));

@@ -3,8 +3,8 @@
 //
 // Each face between two cells has four tetrahedra around it. The corners of each tetrahedron are
 // the centres of the two cells and two adjacent corners of the face. This is the body-centred cubic
-// lattice. No other tetrahedron whose copies fill space is more regular. At the box's sides the
-// centre of the face replaces the centre of the missing cell.
+// lattice. Among tetrahedra whose copies fill space, its tetrahedra are the most regular. At the
+// box's sides the centre of the face replaces the centre of the missing cell.
 #pragma once
 
 #include "core/vector3.h"
@@ -16,7 +16,7 @@
 
 namespace cascade {
 
-/// Indices of a lattice point. Indices of centres start at −1, before the first cell.
+/// Indices of a lattice point. The indices of centres start at −1, before the first cell.
 struct LatticePoint {
     std::array<std::int32_t, 3> place{};
     bool is_centre = false;
@@ -24,14 +24,15 @@ struct LatticePoint {
 
 class CentredLattice {
 public:
-    /// `counts` are the numbers of cells along each axis, at least 1. At most 2³⁰ points in total.
+    /// `counts` has the numbers of cells along each axis, at least 1. The lattice may have at most
+    /// 2³⁰ points.
     CentredLattice(Vector3d low, Vector3d high, std::array<std::int32_t, 3> counts)
         : low_(low), high_(high), counts_(counts) {}
 
     const std::array<std::int32_t, 3>& counts() const { return counts_; }
     Vector3d place_of(const LatticePoint& point) const;
 
-    /// The number of a point. It increases with z.
+    /// The number of a point. Points with larger z have larger numbers.
     std::uint32_t number_of(const LatticePoint& point) const;
     LatticePoint point_of(std::uint32_t number) const;
 
@@ -43,7 +44,7 @@ private:
     std::array<std::int32_t, 3> counts_;
 };
 
-/// The values of a function in one layer of equal z.
+/// The values of a function in one layer of points with equal z.
 struct LatticeLayer {
     std::vector<double> values;  ///< Row by row along x.
 };
@@ -56,8 +57,8 @@ std::vector<LatticePoint> layer_points(const CentredLattice& lattice, std::int32
 /// The crossing of the surface with an edge of the lattice.
 struct Crossing {
     std::uint64_t edge = 0;  ///< The numbers of both ends, the smaller one first.
-    double part = 0;  ///< The fraction of the edge before the crossing, interpolated between the
-                      ///< values at its ends.
+    /// The fraction of the edge before the crossing, interpolated between the values at its ends.
+    double part = 0;
 
     friend bool operator<(const Crossing& a, const Crossing& b) { return a.edge < b.edge; }
 };
@@ -73,8 +74,8 @@ void cross_upright_faces(const CentredLattice& lattice, std::int32_t layer,
                          const LatticeLayer& below, const LatticeLayer& centres,
                          const LatticeLayer& above, CrossedTriangles& triangles);
 
-/// Does the same as cross_upright_faces() at the faces with normals along z, which are between the
-/// cells of layers `layer` − 1 and `layer` (0 … counts[2]).
+/// Appends the triangles of all tetrahedra at the faces with normals along z between the cells of
+/// layers `layer` − 1 and `layer` (0 … counts[2]).
 void cross_level_faces(const CentredLattice& lattice, std::int32_t layer, const LatticeLayer& below,
                        const LatticeLayer& corners, const LatticeLayer& above,
                        CrossedTriangles& triangles);

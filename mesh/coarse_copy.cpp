@@ -1,5 +1,5 @@
-// Collapses edges shorter than a limit that grows to the target, so that triangles of all sizes
-// stay well shaped.
+// Collapses edges shorter than a limit. The limit grows step by step to the target, so that
+// triangles stay well shaped at every step.
 #include "mesh/coarse_copy.h"
 
 #include "mesh/collapse_edges.h"

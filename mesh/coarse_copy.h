@@ -12,8 +12,8 @@ struct CoarseCopy {
     std::vector<std::uint32_t> merged;
 };
 
-/// The surface with its short edges collapsed until most are about as long as `edge`. Components,
-/// handles and boundaries remain. Fails as half_edges() does. Throws std::bad_alloc.
+/// The surface after short edges have been collapsed until most are about as long as `edge`.
+/// Components, handles and boundaries remain. Fails as half_edges() does. Throws std::bad_alloc.
 Result<CoarseCopy> coarse_copy(const SurfaceMesh& mesh, double edge);
 
 }  // namespace cascade

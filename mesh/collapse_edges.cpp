@@ -7,7 +7,8 @@ namespace cascade {
 
 namespace {
 
-constexpr double least_cosine = 0.26;  ///< The cosine of 75°, the most a triangle may rotate.
+/// The cosine of 75°, the largest angle by which a triangle may rotate.
+constexpr double least_cosine = 0.26;
 constexpr unsigned most_edges_at_point = 10;
 
 void try_edge(HalfEdges& mesh, HalfedgeHandle h, double shortest, double longest,
@@ -17,8 +18,8 @@ void try_edge(HalfEdges& mesh, HalfedgeHandle h, double shortest, double longest
     const Vector3d from = position(mesh, a), apart = position(mesh, b) - from;
     if (dot(apart, apart) >= shortest * shortest) return;
     if (mesh.is_boundary(a) || mesh.is_boundary(b)) return;
-    // If a vertex opposite the edge had only three triangles, the collapse would leave it with two
-    // coinciding triangles.
+    // If a vertex opposite the edge had only three triangles, two coinciding triangles would remain
+    // at that vertex after the collapse.
     if (mesh.valence(mesh.opposite_vh(h)) < 4 || mesh.valence(mesh.opposite_vh(other)) < 4) return;
     if (mesh.valence(a) + mesh.valence(b) > most_edges_at_point + 4) return;
     const Vector3d to = merged ? merged->place(mesh, a, b) : from + apart * 0.5;
@@ -41,7 +42,7 @@ bool keep_shape(const HalfEdges& mesh, VertexHandle v, VertexHandle other, Vecto
             ++vanishing;
             continue;
         }
-        if (mesh.is_boundary(h)) continue;  // No triangle here.
+        if (mesh.is_boundary(h)) continue;  // There is no triangle here.
         const Vector3d at_b = position(mesh, b), at_c = position(mesh, c);
         const Vector3d before = cross(at_b - from, at_c - from);
         const Vector3d along = at_b - to;

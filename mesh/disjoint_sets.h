@@ -8,9 +8,9 @@
 
 namespace cascade {
 
-/// A partition of the numbers 0 … count − 1, initially each in its own set: R. Tarjan's union-find
-/// with path halving. A set is represented by its smallest number, unless put_under() has chosen
-/// another number.
+/// A partition of the numbers 0 … count − 1, of which each is at first a set of its own: R.
+/// Tarjan's union-find with path halving. A set is represented by its smallest number, unless
+/// put_under() has chosen another number.
 class DisjointSets {
 public:
     explicit DisjointSets(std::size_t count) : above_(count) {

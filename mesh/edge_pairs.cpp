@@ -1,5 +1,5 @@
 // Sorts half-edges by their two points. At edges with more than two triangles, pairs the triangles
-// that continue each other best. Spreads orientation breadth-first.
+// that continue each other best. Then orients triangles breadth-first.
 #include "mesh/edge_pairs.h"
 
 #include "mesh/disjoint_sets.h"
@@ -14,8 +14,8 @@ namespace {
 
 using Triangles = std::span<const std::array<std::uint32_t, 3>>;
 
-/// The largest number of triangles at an edge that are paired. If an edge has more, all of them get
-/// a boundary there.
+/// The largest number of triangles at an edge that are paired. At an edge with more triangles, all
+/// of them get a boundary.
 constexpr std::size_t most_at_edge = 16;
 
 struct HalfEdge {
@@ -41,8 +41,8 @@ Vector3d inwards(std::span<const Vector3d> points, Triangles triangles, const Ha
     return unit(side - along * dot(side, along));
 }
 
-/// Two triangles at a non-manifold edge that could be connected. The smallest Match is connected
-/// first.
+/// Two triangles at a non-manifold edge that could be connected. Matches are connected in ascending
+/// order.
 struct Match {
     bool is_elsewhere_apart = false;
     bool turns_against = false;

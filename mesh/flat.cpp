@@ -1,5 +1,5 @@
-// Walks from triangle to triangle. Lays each triangle flat beside the previous one. The number of
-// crossings is limited.
+// Walks from triangle to triangle. Lays each triangle flat beside the previous one. Limits the
+// number of crossings.
 #include "mesh/flat.h"
 
 #include <algorithm>

@@ -88,7 +88,7 @@ private:
     /// The texture coordinates of the corner where a half-edge begins.
     TexturePlace& texture(HalfedgeHandle h) { return texture_[static_cast<std::size_t>(h.idx())]; }
 
-    /// Removes a flat triangle if possible. Returns whether it was removed.
+    /// Removes a flat triangle if possible, and returns whether this was possible.
     bool remove(FaceHandle f) {
         const HalfedgeHandle h = sides_of(f)[longest_edge(corners_of(f))];
         const FaceHandle other = mesh_.opposite_face_handle(h);
@@ -126,7 +126,7 @@ private:
         if (done_.left_out > 0) renew_points();
     }
 
-    /// Removes points without triangles and splits points with several fans after deletions.
+    /// After deletions, removes points without triangles and splits points with several fans.
     void renew_points() {
         const std::vector<std::uint32_t> sources = separate_fans(old_);
         const auto taken = [&](const auto& old) {
@@ -142,7 +142,8 @@ private:
 
     SurfaceMesh& old_;
     HalfEdges& mesh_;
-    std::vector<TexturePlace> texture_;  ///< Per half-edge. Empty if the mesh has none.
+    /// The texture coordinates of each half-edge. Empty if the mesh has no texture coordinates.
+    std::vector<TexturePlace> texture_;
     FlatTriangles done_;
 };
 

@@ -7,7 +7,7 @@ Animal frog() {
     constexpr double soft = 0.003, firm = 0.0013;
     // clang-format off
     return {LimbBody({
-        // Trunk and head, from the rump to the nose; sides of the mouth.
+        // Trunk and head from the rump to the nose, and the sides of the mouth.
         {{{0, 0.020, -0.036, 0.013}, {0, 0.025, -0.016, 0.020}, {0, 0.033, 0.008, 0.022},
           {0, 0.040, 0.028, 0.0195}, {0, 0.041, 0.044, 0.011}},
          soft, Sides::one, {1, 0.78, 1}},
@@ -15,7 +15,7 @@ Animal frog() {
          soft, Sides::both, {1, 0.8, 1}},
         // Eyes.
         {{{0.0125, 0.0525, 0.0310, 0.0072}}, 0.0006, Sides::both},
-        // Front legs: shoulder, elbow, wrist; three fingers.
+        // Front legs (shoulder, elbow, wrist), each with three fingers.
         {{{0.016, 0.028, 0.016, 0.0085}, {0.028, 0.018, 0.013, 0.0065},
           {0.027, 0.0055, 0.024, 0.0046}}, firm, Sides::both},
         {{{0.027, 0.0045, 0.025, 0.0042}, {0.020, 0.0032, 0.036, 0.0030},
@@ -24,7 +24,7 @@ Animal frog() {
           {0.0295, 0.0032, 0.0425, 0.0034}}, firm, Sides::both},
         {{{0.027, 0.0045, 0.025, 0.0042}, {0.037, 0.0032, 0.034, 0.0030},
           {0.0395, 0.0032, 0.0365, 0.0034}}, firm, Sides::both},
-        // Hind legs: hip, knee; ankle; three toes.
+        // Hind legs (hip, knee, ankle), each with three toes.
         {{{0.010, 0.020, -0.033, 0.0105}, {0.030, 0.024, -0.018, 0.0105},
           {0.042, 0.021, 0.001, 0.0075}}, firm, Sides::both},
         {{{0.042, 0.021, 0.001, 0.0075}, {0.046, 0.013, -0.018, 0.0075},

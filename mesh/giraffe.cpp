@@ -7,7 +7,7 @@ Animal giraffe() {
     constexpr double wide = 0.09, soft = 0.05, firm = 0.025;
     // clang-format off
     return {LimbBody({
-        // Trunk, from the hips to the chest: the back slopes.
+        // Trunk, from the hips to the chest. The back slopes.
         {{{0, 2.17, -0.60, 0.36},
           {0, 2.20, -0.20, 0.40},
           {0, 2.30, 0.25, 0.47},
@@ -31,12 +31,12 @@ Animal giraffe() {
         // Mane.
         {{{0, 2.92, 0.48, 0.10}, {0, 3.45, 0.86, 0.11}, {0, 3.95, 1.09, 0.11},
           {0, 4.36, 1.30, 0.09}}, firm, Sides::one, {0.5, 1, 1}},
-        // Front legs: shoulder, elbow, knee, fetlock; hoof.
+        // Front legs (shoulder, elbow, knee, fetlock) and hooves.
         {{{0.19, 2.35, 0.50, 0.30}, {0.22, 1.90, 0.48, 0.20}, {0.215, 1.45, 0.52, 0.130},
           {0.21, 1.08, 0.54, 0.120}, {0.21, 0.70, 0.53, 0.085}, {0.21, 0.24, 0.53, 0.088}},
          wide, Sides::both},
         {{{0.21, 0.14, 0.54, 0.100}, {0.21, 0.070, 0.56, 0.115}}, firm, Sides::both, {1, 0.75, 1}},
-        // Hind legs: thigh, stifle, hock, fetlock; hoof.
+        // Hind legs (thigh, stifle, hock, fetlock) and hooves.
         {{{0.17, 2.15, -0.62, 0.33}, {0.22, 1.75, -0.55, 0.235}, {0.215, 1.40, -0.66, 0.140},
           {0.21, 1.12, -0.76, 0.115}, {0.21, 0.70, -0.72, 0.085}, {0.21, 0.24, -0.70, 0.088}},
          wide, Sides::both},

@@ -30,7 +30,7 @@ std::uint32_t number_at(std::string_view bytes, std::size_t at) {
     return number;
 }
 
-/// Fails if a binary file is shorter than its header says. The length is at byte 8.
+/// Fails if a binary file is shorter than the length in its header, at byte 8.
 Result<void> check_whole(std::string_view bytes) {
     constexpr std::size_t header = 12;
     const std::size_t length = bytes.size() < header ? header : number_at(bytes, 8);
@@ -40,14 +40,15 @@ Result<void> check_whole(std::string_view bytes) {
                    "it may be truncated");
 }
 
-/// An error of tinygltf without the data of a buffer that it quotes.
+/// An error message of tinygltf. If the message quotes the data of a buffer, returns another
+/// message without the data.
 std::string without_data(std::string fault) {
     const std::size_t data = fault.find("data:");
     if (data == std::string::npos) return short_name(fault, 400);
     return "the data of a buffer are not Base64, or not as long as its byteLength";
 }
 
-/// The JSON text of a binary file. Its length is at byte 12, its beginning at byte 20.
+/// The JSON text of a binary file. The text begins at byte 20, and its length is at byte 12.
 std::string_view json_of(std::string_view bytes, bool is_binary) {
     if (!is_binary || bytes.size() < 20) return bytes;
     return bytes.substr(20, number_at(bytes, 12));
@@ -117,7 +118,7 @@ bool load(std::string_view bytes, bool is_binary, Buffers& buffers, tinygltf::Mo
     }
 }
 
-/// Whether the meshes have parts, and each part consists of points or lines.
+/// Whether the file has parts of meshes and all of them consist of points or lines.
 bool has_lines_only(const tinygltf::Model& model) {
     bool has_parts = false;
     for (const tinygltf::Mesh& mesh : model.meshes) {

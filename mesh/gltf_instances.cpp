@@ -49,8 +49,8 @@ Result<GltfInstances> GltfInstances::of(const tinygltf::Model& model, const tiny
     }
     const tinygltf::Value& colour = attributes.Get("_COLOR_0");
     if (colour.IsInt()) instances.colour_ = GltfNumbers::of(model, colour.GetNumberAsInt());
-    // Without attributes of translation, rotation and scale, all copies would coincide, so one is
-    // enough.
+    // If there is no attribute of translation, rotation or scale, all copies would coincide, so one
+    // copy is enough.
     if (!instances.count_) instances.count_ = 1;
     else if (!has_bytes && *instances.count_ > 0) return wrong();
     return instances;

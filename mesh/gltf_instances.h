@@ -21,8 +21,8 @@ public:
     std::size_t count() const { return count_.value_or(0); }
     /// The position of a copy in the coordinates of the node.
     GltfMatrix matrix(std::size_t copy) const;
-    /// The light by which a copy's colour is multiplied: the attribute `_COLOR_0`, if there is one.
-    /// three.js and Babylon.js use this attribute in the same way.
+    /// The light by which a copy's colour is multiplied, from the attribute `_COLOR_0`. three.js
+    /// and Babylon.js use this attribute in the same way. nullopt if the copies lack the attribute.
     std::optional<std::array<double, 3>> light(std::size_t copy) const;
 
 private:

@@ -1,4 +1,4 @@
-// Columns are the images of the axes and of the origin.
+// A matrix has the images of the axes and of the origin as its columns.
 #include "mesh/gltf_matrix.h"
 
 namespace cascade {

@@ -1,4 +1,4 @@
-// tinygltf without its images, and access to the parts that a file names by number.
+// tinygltf without its support for images, and access to the parts that a file names by number.
 #pragma once
 
 #define TINYGLTF_NO_STB_IMAGE  // Textures are not needed.
@@ -13,7 +13,7 @@
 
 namespace cascade {
 
-/// Part `number` of a list. Null if the number is out of range.
+/// Part `number` of a list; null if the number is out of range.
 template <typename Part>
 const Part* part_of(const std::vector<Part>& list, int number) {
     const auto place = static_cast<std::size_t>(number);

@@ -52,7 +52,7 @@ std::optional<GltfNumbers::Row> GltfNumbers::row_of(const tinygltf::Model& model
     row.component_size = static_cast<std::size_t>(component_size);
     const std::size_t element = components * row.component_size;
     row.stride = has_stride && bytes->byteStride > 0 ? bytes->byteStride : element;
-    // tinygltf accepts strides that are not multiples of the component size.
+    // Rejects strides that are not multiples of the component size. tinygltf accepts them.
     if (row.stride % row.component_size != 0) return {};
     const std::size_t size = buffer->data.size();
     if (bytes->byteOffset > size || offset > size - bytes->byteOffset) return {};

@@ -1,5 +1,5 @@
 // The numbers of glTF's accessors: elements with a few components in a buffer. A sparse accessor
-// may replace some of them.
+// may replace some elements.
 #pragma once
 
 #include "mesh/gltf_model.h"
@@ -11,19 +11,19 @@ namespace cascade {
 
 class GltfNumbers {
 public:
-    /// The numbers of an accessor, read from the model's buffers. Empty if there is no such
+    /// The numbers of an accessor, read from the model's buffers. nullopt if there is no such
     /// accessor, if its numbers lie beyond the data, or if the replaced elements are not in
     /// ascending order.
     static std::optional<GltfNumbers> of(const tinygltf::Model& model, int accessor);
 
     std::size_t count() const { return count_; }
     std::size_t components() const { return components_; }
-    /// Whether the file has data for the elements. Without data, all elements are 0 except replaced
-    /// ones.
+    /// Whether the file has data for the elements. Without data, all elements are 0 except for
+    /// replaced elements.
     bool has_bytes() const { return base_.data != nullptr; }
 
-    /// A component. If the accessor is normalized, integers become fractions of their largest
-    /// value.
+    /// A component of an element. If the accessor is normalized, integers are divided by their
+    /// type's largest value.
     double at(std::size_t element, std::size_t component) const {
         if (replaced_count_ > 0) {
             if (const auto k = replacement_of(element)) return number(values_, *k, component);

@@ -20,15 +20,15 @@ using GltfJson = nlohmann::json;
 
 constexpr std::size_t deepest_nesting = 128;
 
-/// Extensions that the reader applies. It refuses some of them where their data are needed.
+/// Extensions that the reader knows how to apply, or refuses where a file needs their data.
 constexpr std::array applied_extensions = {
     "EXT_mesh_gpu_instancing", "KHR_texture_transform",   "KHR_mesh_quantization",
     "EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_draco_mesh_compression",
     "KHR_node_visibility",
 };
 
-/// Extensions that do not change shapes, positions and texture coordinates. Extensions that begin
-/// with one of look_prefixes do not either.
+/// Extensions that do not change shapes, positions and texture coordinates. The same is true of
+/// extensions that begin with one of look_prefixes.
 constexpr std::array beside_the_shape = {
     "EXT_lights_ies",
     "EXT_lights_image_based",
@@ -47,14 +47,14 @@ constexpr std::array beside_the_shape = {
 constexpr std::array look_prefixes = {"KHR_materials_", "EXT_materials_", "ADOBE_materials_",
                                       "MSFT_packing_"};
 
-/// A member of an object. Null if there is none.
+/// A member of an object; null if the object lacks the member.
 const GltfJson* member(const GltfJson* object, const char* name) {
     if (!object || !object->is_object()) return nullptr;
     const auto found = object->find(name);
     return found == object->end() ? nullptr : &*found;
 }
 
-/// The entry of a list whose index is `number`. Null if there is none.
+/// The entry of a list whose index is `number`; null if the list lacks the entry.
 const GltfJson* entry(const GltfJson* list, const GltfJson* number) {
     if (!list || !list->is_array() || !number || !number->is_number_integer()) return nullptr;
     const auto place = number->get<std::int64_t>();
@@ -105,7 +105,7 @@ Result<void> check_extension(const GltfJson& name) {
                    "export it without this extension");
 }
 
-/// Fails on a buffer view whose bytes exist only in a compressed form.
+/// Fails if a buffer view has bytes only in a compressed form.
 Result<void> check_view(const GltfJson& file, const GltfJson& view) {
     for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
         if (!extension(&view, name)) continue;
@@ -122,7 +122,7 @@ Result<void> check_view(const GltfJson& file, const GltfJson& view) {
     return {};
 }
 
-/// Fails on triangles compressed by Draco without an uncompressed copy.
+/// Fails if triangles are compressed by Draco and have no uncompressed copy.
 Result<void> check_primitive(const GltfJson& file, const GltfJson& primitive) {
     constexpr const char* name = "KHR_draco_mesh_compression";
     if (!extension(&primitive, name)) return {};
@@ -141,7 +141,7 @@ Result<void> check_primitive(const GltfJson& file, const GltfJson& primitive) {
                    "export it without compression");
 }
 
-/// Fails on corners whose accessor is sparse and has no base data. tinygltf refuses such files,
+/// Fails if the accessor of corners is sparse and has no base data. tinygltf refuses such files,
 /// too, but gives no reason.
 Result<void> check_corners(const GltfJson& file, const GltfJson& primitive) {
     const GltfJson* const corners =
@@ -156,7 +156,8 @@ Result<void> check_corners(const GltfJson& file, const GltfJson& primitive) {
 }  // namespace
 
 Result<void> check_gltf_size(std::string_view json) {
-    // tinygltf needs hundreds of bytes for some objects of two bytes, and recurses at each level.
+    // tinygltf needs hundreds of bytes of memory for some objects of two bytes, and recurses at
+    // each level.
     const JsonSize size = measure_json(json);
     if (size.depth > deepest_nesting) {
         return failure(fmt::format("the glTF file nests more than {} lists", deepest_nesting));

@@ -11,8 +11,8 @@ namespace cascade {
 Result<void> check_gltf_size(std::string_view json);
 
 /// Fails on files of another version than 2, on required extensions that are unknown, and on
-/// geometry that exists only in a compressed form. The message names the cause. Accepts any text
-/// that is not JSON.
+/// geometry that exists only in a compressed form. The message names the cause. Does not fail on
+/// text that is not JSON.
 Result<void> check_gltf_requirements(std::string_view json);
 
 /// Whether the reader applies the extension, or can ignore it without an error in shapes, positions

@@ -29,9 +29,9 @@ namespace {
 struct GltfPlacing {
     const GltfMatrix&
         matrix;  ///< The node's matrix. It is not applied to points that a skin positions.
-    const std::vector<GltfMatrix>* joints;  ///< The skin's joints. Null if there is none.
-    std::span<const double> weights;        ///< The weights of morph targets, 0 for missing ones.
-    /// Factors of a copy's colours.
+    const std::vector<GltfMatrix>* joints;  ///< The joints' matrices; null without a skin.
+    std::span<const double> weights;        ///< The morph targets' weights; 0 for missing weights.
+    /// The factors by which a copy's colours are multiplied.
     std::optional<std::array<double, 3>> light = {};
 };
 
@@ -46,9 +46,9 @@ bool mirrors(const GltfMatrix& m) {
 /// An attribute of a primitive with its morph targets.
 class MorphedAttribute {
 public:
-    /// Empty if the primitive has no such attribute, or if the attribute has fewer than `least`
-    /// components or exceeds the file's data. Targets that lack the attribute leave it unchanged.
-    /// Fails on targets that have fewer points than the attribute or exceed the data.
+    /// nullopt if the primitive has no such attribute, or if the attribute has fewer than `least`
+    /// components or exceeds the file's data. Targets that lack the attribute do not change it.
+    /// Fails if a target has fewer points than the attribute or exceeds the data.
     static Result<std::optional<MorphedAttribute>> of(const tinygltf::Model& model,
                                                       const tinygltf::Primitive& primitive,
                                                       const std::string& name, std::size_t least,
@@ -56,7 +56,7 @@ public:
 
     std::size_t count() const { return base_.count(); }
     std::size_t components() const { return base_.components(); }
-    /// The number of arrays that are added up to get a value: the base and the targets.
+    /// The number of arrays that add up to a value: the base and the targets.
     std::size_t parts() const { return 1 + targets_.size(); }
     double at(std::size_t element, std::size_t component) const {
         double sum = base_.at(element, component);
@@ -101,12 +101,12 @@ Result<std::optional<MorphedAttribute>> MorphedAttribute::of(const tinygltf::Mod
     return attribute;
 }
 
-/// The work for one copy: how many numbers and matrices are read.
+/// The steps that one copy costs: the numbers and matrices that are read.
 constexpr std::size_t steps_of_copy = 8;
 
-/// Limits on the data that a file may place, derived from its size. Needed because even a small
-/// file can use the same mesh or list the same triangles any number of times. A copy takes a few
-/// bytes and may have thousands of triangles. Small files get an allowance.
+/// Limits on the data that a file may place, derived from its size. Even a small file can use the
+/// same mesh or list the same triangles any number of times. A copy takes only a few bytes in the
+/// file but may have thousands of triangles. Small files get an allowance.
 struct SceneBounds {
     std::size_t points, corners, steps;
 
@@ -115,7 +115,7 @@ struct SceneBounds {
           corners(std::min(std::size_t{1} << 29, (std::size_t{1} << 20) + 4 * bytes)),
           steps((std::size_t{1} << 24) + 16 * std::min(bytes, std::size_t{1} << 36)) {
         if (!has_copies) return;
-        constexpr std::size_t copied_triangles = std::size_t{1} << 24;  // Limit of merged copies.
+        constexpr std::size_t copied_triangles = std::size_t{1} << 24;  // Limit for all copies.
         points = std::max(points, std::min(3 * copied_triangles, points + 64 * bytes));
         corners = std::max(corners, std::min(3 * copied_triangles, corners + 192 * bytes));
     }
@@ -157,7 +157,7 @@ private:
         });
     }
 
-    /// Whether KHR_node_visibility hides the node, and with it its descendants.
+    /// Whether KHR_node_visibility hides the node. Its descendants are then hidden, too.
     static bool is_hidden(const tinygltf::Node& node) {
         const auto visibility = node.extensions.find("KHR_node_visibility");
         if (visibility == node.extensions.end() || !visibility->second.IsObject()) return false;
@@ -165,8 +165,8 @@ private:
         return visible.IsBool() && !visible.Get<bool>();
     }
 
-    /// Counts work that may add few points and corners or none at all. Fails when the total exceeds
-    /// the file's limit.
+    /// Counts steps of work that may add only a few points and corners, or none. Fails when the
+    /// total exceeds the file's limit.
     Result<void> take_steps(std::size_t arrays, std::size_t length = 1) {
         if (length > 0 && arrays > (bounds_.steps - steps_) / length) {
             return failure(
@@ -223,7 +223,7 @@ private:
         return {};
     }
 
-    /// The joints of a skin, which many nodes may share.
+    /// The matrices of a skin's joints. Many nodes may share a skin.
     Result<const std::vector<GltfMatrix>*> joints_of(int skin) {
         const auto known = joints_.find(skin);
         if (known != joints_.end()) return &known->second;
@@ -328,7 +328,7 @@ private:
         return {};
     }
 
-    /// The texture coordinates of each point. Empty if there are none.
+    /// The texture coordinates of each point. Empty if the primitive has no texture coordinates.
     Result<std::vector<TexturePlace>> texture_places(const tinygltf::Primitive& primitive,
                                                      const GltfPlacing& placing,
                                                      std::size_t points) {

@@ -20,7 +20,7 @@ GltfNodePlaces::GltfNodePlaces(const tinygltf::Model& model)
 }
 
 Result<GltfMatrix> GltfNodePlaces::of(int node) {
-    // Goes up to the first node whose matrix is known, then down again.
+    // Goes up to the first node whose matrix is known, and from there down to `node`.
     std::vector<std::size_t> path;
     GltfMatrix place = gltf_identity;
     for (int at = node; at >= 0; at = parents_[static_cast<std::size_t>(at)]) {
@@ -56,7 +56,7 @@ Result<std::vector<GltfMatrix>> joints_of_skin(const tinygltf::Model& model, int
                                                GltfNodePlaces& places) {
     const tinygltf::Skin* const skin = part_of(model.skins, number);
     if (!skin) return failure(fmt::format("the glTF file has no skin {}", number));
-    std::optional<GltfNumbers> bound;  // Without this accessor: identity matrices.
+    std::optional<GltfNumbers> bound;  // nullopt means identity matrices.
     if (skin->inverseBindMatrices >= 0) {
         bound = GltfNumbers::of(model, skin->inverseBindMatrices);
         if (!bound || bound->components() != 16 || bound->count() < skin->joints.size()) {

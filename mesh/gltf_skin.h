@@ -1,4 +1,4 @@
-// Skins of glTF files: joints, which are nodes, position the points of a mesh.
+// Skins of glTF files. A skin has joints, which are nodes and position the points of a mesh.
 #pragma once
 
 #include "core/result.h"
@@ -17,28 +17,29 @@ class GltfNodePlaces {
 public:
     explicit GltfNodePlaces(const tinygltf::Model& model);
 
-    /// The matrix of a node. Fails if there is no such node, or if it is its own descendant.
+    /// The matrix of a node. Fails if there is no such node, or if the node is its own descendant.
     Result<GltfMatrix> of(int node);
 
 private:
     const tinygltf::Model& model_;
-    std::vector<int> parents_;                       ///< −1 for nodes without a parent.
+    /// The parent of each node; −1 for nodes without a parent.
+    std::vector<int> parents_;
     std::vector<std::optional<GltfMatrix>> places_;  ///< The matrices computed so far.
 };
 
 /// The matrix of a node, given directly or by its translation, rotation and scale.
 GltfMatrix matrix_of_node(const tinygltf::Node& node);
 
-/// The matrices by which the joints of a skin move points of its mesh. Fails on missing joints or
-/// matrices.
+/// The matrices by which the joints of a skin move points of its mesh. Fails if joints or matrices
+/// are missing.
 Result<std::vector<GltfMatrix>> joints_of_skin(const tinygltf::Model& model, int skin,
                                                GltfNodePlaces& places);
 
 /// The weights by which joints move the points of a primitive, in sets of four.
 class GltfWeights {
 public:
-    /// `is_there` is false if the primitive has no weights. Fails on weights for fewer than `count`
-    /// points or beyond the data.
+    /// `is_there` is false if the primitive has no weights. Fails if the weights cover fewer than
+    /// `count` points or lie beyond the data.
     static Result<GltfWeights> of(const tinygltf::Model& model,
                                   const tinygltf::Primitive& primitive, std::size_t count);
 

@@ -39,7 +39,8 @@ GltfTexture described_by(const Info& info) {
     return texture;
 }
 
-/// The texture of colours in older files, if the material has one.
+/// The texture of colours by the old extension KHR_materials_pbrSpecularGlossiness, if the material
+/// has one.
 std::optional<GltfTexture> diffuse_texture(const tinygltf::Material& material) {
     const auto found = material.extensions.find("KHR_materials_pbrSpecularGlossiness");
     if (found == material.extensions.end() || !found->second.IsObject()) return {};

@@ -15,15 +15,15 @@ struct GltfTexture {
     /// picture, as in the extension KHR_texture_transform.
     std::array<double, 6> rows = {1, 0, 0, 0, 1, 0};
 
-    /// Converts coordinates of glTF, whose origin is the upper left corner, to a TexturePlace,
-    /// whose origin is the lower left corner.
+    /// Converts coordinates of glTF, whose origin is the upper left corner of the picture, to a
+    /// TexturePlace, whose origin is the lower left corner.
     TexturePlace place(double u, double v) const;
 };
 
-/// Selects the texture coordinates of the material's base colour. Without such a texture, selects
-/// the texture coordinates of the first texture that exists among normals, roughness, light and
-/// occlusion. If the primitive lacks the selected set, selects its first set without a
-/// transformation.
+/// Selects the texture coordinates of the material's base colour. If there is no such texture,
+/// selects the texture coordinates of the first texture that exists among normals, roughness, light
+/// and occlusion. If the primitive lacks the selected set, selects the primitive's first set
+/// without a transformation.
 GltfTexture texture_of(const tinygltf::Model& model, const tinygltf::Primitive& primitive);
 
 }  // namespace cascade

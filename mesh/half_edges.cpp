@@ -1,4 +1,4 @@
-// Conversion between SurfaceMesh, for reading, and half-edges, for editing.
+// Converts between SurfaceMesh, which is for reading, and half-edges, which are for editing.
 #include "mesh/half_edges.h"
 
 #include <fmt/format.h>
@@ -47,7 +47,7 @@ private:
                corner(next(here)) == corner(other);
     }
 
-    /// Numbers edges so that the first half-edge of each belongs to the triangle with the lower
+    /// Numbers edges. The first half-edge of each edge belongs to the triangle with the lower
     /// index.
     Result<void> number_edges() {
         if (mesh_.across.size() != mesh_.triangles.size()) {
@@ -140,7 +140,8 @@ private:
 }  // namespace
 
 Result<HalfEdges> half_edges(const SurfaceMesh& mesh) {
-    Result<HalfEdges> made;  // The only object returned, so that the mesh is not copied.
+    // The only object that is returned, so that returning does not copy the mesh.
+    Result<HalfEdges> made;
     if (Result<void> fine = Converter(mesh).convert(*made); !fine)
         made = tl::unexpected(fine.error());
     return made;
@@ -153,7 +154,7 @@ SurfaceMesh surface_mesh(const HalfEdges& mesh, std::span<const std::uint32_t> v
         points[v] = static_cast<std::uint32_t>(result.points.size());
         result.points.push_back(position(mesh, vertex(v)));
     }
-    // Indexed by half-edge, for half-edges with a face.
+    // The triangle edge of each half-edge that has a face.
     std::vector<TriangleEdge> places(mesh.n_halfedges());
     const auto place = [&](HalfedgeHandle h) -> TriangleEdge& {
         return places[static_cast<std::size_t>(h.idx())];

@@ -35,13 +35,15 @@ using OpenMesh::VertexHandle;
 /// The sum of the squared distances of a point from planes.
 using PlaneQuadric = OpenMesh::Geometry::Quadricd;
 
-/// The largest number of faces. OpenMesh numbers half-edges, up to six per face, by `int`.
+/// The largest number of faces. OpenMesh numbers half-edges by `int`, and a face may need six
+/// half-edges.
 inline constexpr std::size_t most_faces = std::numeric_limits<int>::max() / 6;
 
 /// The points and triangles of `mesh` with their indices. The half-edge of a face goes from its
-/// first corner to its second. Two edges between the same points stay separate: half-edges are
-/// linked by `across`, because add_face() looks edges up by their ends and would merge such edges.
-/// is_flip_ok() prevents new double edges, but is_collapse_ok() does not notice existing ones.
+/// first corner to its second. Two edges between the same points stay separate: this function links
+/// half-edges by `across`, because add_face() would look edges up by their ends and merge such
+/// edges. is_flip_ok() prevents new double edges, but is_collapse_ok() does not notice existing
+/// ones.
 ///
 /// Fails on invalid meshes: corners that are no points, a triangle with a repeated corner, edges
 /// that do not match their neighbours, points with several fans of triangles. Fails on more edges
@@ -49,8 +51,8 @@ inline constexpr std::size_t most_faces = std::numeric_limits<int>::max() / 6;
 Result<HalfEdges> half_edges(const SurfaceMesh& mesh);
 
 /// The mesh of `vertices`, in this order. They must include the corners of all faces. Triangles are
-/// in the order of faces. (OpenMesh's garbage_collection() would change these orders, because it
-/// fills gaps with the last elements.)
+/// in the order of faces. (OpenMesh's garbage_collection() would fill gaps with the last elements,
+/// which changes these orders.)
 SurfaceMesh surface_mesh(const HalfEdges& mesh, std::span<const std::uint32_t> vertices);
 /// The mesh of all vertices that are not deleted, in their order.
 SurfaceMesh surface_mesh(const HalfEdges& mesh);
@@ -63,11 +65,11 @@ inline Vector3d position(const HalfEdges& mesh, VertexHandle v) {
     return {p[0], p[1], p[2]};
 }
 
-/// The half-edges that begin at a vertex, counterclockwise. At a boundary, the last of them is the
-/// only one without a face.
+/// Writes to `spokes` the half-edges that begin at a vertex, counterclockwise. At a boundary, only
+/// the last half-edge has no face.
 void outgoing(const HalfEdges& mesh, VertexHandle v, std::vector<HalfedgeHandle>& spokes);
 
-/// Whether an edge joins two vertices. Takes time proportional to the smaller one-ring.
+/// Whether an edge joins two vertices. Takes time proportional to the smaller of their one-rings.
 bool are_neighbours(const HalfEdges& mesh, VertexHandle a, VertexHandle b);
 
 }  // namespace cascade

@@ -17,13 +17,13 @@ namespace cascade {
 namespace {
 
 /// The least distance of a triangle's corner from the ends of its lattice edge, as a fraction of
-/// the edge. With corners at such ends, triangles could have no area.
+/// that edge. Triangles with corners at the ends could have no area.
 constexpr double least_part = 0.1;
-/// The distances at which the surface is searched from a point, as multiples of the edge, nearest
+/// The distances from a point at which the surface is searched, as multiples of the edge, nearest
 /// first.
 constexpr std::array reaches = {0.05, 0.15, 0.4, 1.0};
 constexpr int most_halvings = 60;
-/// The error of a corner's position, as a multiple of the edge.
+/// The largest error of a corner's position, as a multiple of the edge.
 constexpr double accuracy = 1e-12;
 
 std::string text_of(Vector3d p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z); }
@@ -64,7 +64,7 @@ private:
     struct Bracket {
         std::size_t number = 0;
         Vector3d origin, direction;
-        double near = 0, far = 0;  ///< Distances between which the function changes its sign.
+        double near = 0, far = 0;  ///< The distances between which the function changes its sign.
         double near_value = 0, far_value = 0;
     };
 
@@ -88,8 +88,8 @@ private:
     }
 
     /// Searches outwards from points inside and inwards from points outside, at growing distances.
-    /// If the function does not change its sign within the largest distance, the point stays where
-    /// it is.
+    /// If the function does not change its sign within the largest distance, the point does not
+    /// move.
     Result<void> find_brackets(std::span<const Vector3d> points,
                                std::span<const Vector3d> normals) {
         std::vector<Bracket> sought;
@@ -130,8 +130,8 @@ private:
         return {};
     }
 
-    /// Narrows all brackets to the surface by regula falsi. If an end of a bracket does not move in
-    /// a step, the value at this end is halved (the Illinois rule). An occasional bisection bounds
+    /// Narrows all brackets to the surface by regula falsi. If a step does not move one end of a
+    /// bracket, the value at this end is halved (the Illinois rule). An occasional bisection bounds
     /// the number of steps.
     Result<void> close_brackets(std::span<Vector3d> points) {
         std::vector<double> middles;

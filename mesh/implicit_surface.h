@@ -11,13 +11,14 @@
 namespace cascade {
 
 /// Sets values[k] to the value of the function at points[k], for all k. Values must be positive
-/// inside. Only one thread calls the function, usually with whole layers of points of equal z.
+/// inside. Only one thread calls the function, usually with whole layers of points that have the
+/// same z.
 using ImplicitFunction =
     std::function<void(std::span<const Vector3d> points, std::span<double> values)>;
 
 struct ImplicitRequest {
     Vector3d low{-1, -1, -1}, high{1, 1, 1};  ///< The box that contains the surface.
-    double edge = 0.05;                       ///< Approximate length of the triangles' edges.
+    double edge = 0.05;                       ///< Approximate length of the edges of triangles.
 };
 
 /// The largest number of lattice points, and the largest number of triangles before remeshing.
@@ -29,15 +30,15 @@ inline constexpr std::size_t most_cut_triangles = std::size_t{1} << 24;
 /// triangle.
 double lattice_points(const ImplicitRequest& request);
 
-/// The surface f = 0 as closed components of nearly equilateral triangles that face outwards, with
-/// corners on the surface. Evaluates the function at the corners and centres of cells of width
-/// `edge`. Cuts the tetrahedra between these points where the function changes its sign (A. Doi and
-/// A. Koide, "An Efficient Method of Triangulating Equi-Valued Surfaces", IEICE Transactions
-/// E74(1), 1991). This method has no ambiguous cases and always gives a closed surface. Then
-/// remeshes the triangles and projects their corners onto f = 0 along the normals, by regula falsi
-/// between points inside and outside. Parts thinner than `edge` may be lost or torn, and sharp
-/// edges are rounded by about `edge`. Elsewhere the error of area and volume is of second order in
-/// `edge`.
+/// The surface f = 0 as closed components of nearly equilateral triangles. Triangles face outwards,
+/// and their corners are on the surface. Evaluates the function at the corners and centres of cells
+/// of width `edge`. Cuts the tetrahedra between these points where the function changes its sign
+/// (A. Doi and A. Koide, "An Efficient Method of Triangulating Equi-Valued Surfaces", IEICE
+/// Transactions E74(1), 1991). This method has no ambiguous cases and always gives a closed
+/// surface. Then remeshes the triangles and projects their corners onto f = 0 along the normals, by
+/// regula falsi between points inside and outside. Parts thinner than `edge` may be lost or torn,
+/// and sharp edges are rounded by about `edge`. Elsewhere the error of area and volume is of second
+/// order in `edge`.
 ///
 /// Fails if the surface meets a side of the box. To cut the surface, use min(f, g) where g is
 /// positive inside the wanted part. Fails also, with the location, if the function is not finite,

@@ -15,7 +15,7 @@ struct Placement {
     std::uint32_t mesh = 0;  ///< The index of the mesh.
     Vector3d place;
     Quaternion turn;          ///< Of length 1.
-    Vector3d scale{1, 1, 1};  ///< Factors along the mesh's own axes, larger than 0.
+    Vector3d scale{1, 1, 1};  ///< Factors along the mesh's own axes, each larger than 0.
     Colour colour{1, 1, 1};   ///< sRGB, 0 … 1.
 };
 
@@ -29,17 +29,17 @@ struct Instances {
     std::uint64_t triangle_count() const;
 };
 
-/// Moves and scales all copies by the map p ↦ (p − middle) × scale, for example the map of a
-/// DrawnMesh.
+/// Moves and scales all copies by the map p ↦ (p − middle) × scale, such as the map of a DrawnMesh.
 void move_instances(Instances& instances, Vector3d middle, double scale);
 
-/// Applies a placement in binary32 to the points and normals of its mesh.
+/// Applies a placement to the points and normals of its mesh, in binary32.
 class PlacementMap {
 public:
     explicit PlacementMap(const Placement& placement);
 
     Vector3 point(Vector3 p) const { return x_ * p.x + y_ * p.y + z_ * p.z + place_; }
-    /// A normal, scaled to length 1. Normals are scaled by the inverse factors.
+    /// The image of a normal, scaled to length 1. Normals are multiplied by the reciprocals of the
+    /// scale factors.
     Vector3 normal(Vector3 n) const {
         return unit(x_ * (n.x * factors_.x) + y_ * (n.y * factors_.y) + z_ * (n.z * factors_.z));
     }
@@ -52,7 +52,7 @@ public:
 
 private:
     Vector3 x_, y_, z_, place_;
-    /// Inverse squares of the scale, which `x_`, `y_` and `z_` already contain once.
+    /// The inverse squares of the scale. `x_`, `y_` and `z_` already contain the scale once.
     Vector3 factors_;
 };
 

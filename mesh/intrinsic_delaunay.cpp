@@ -59,8 +59,8 @@ private:
         const std::uint32_t c = mesh_.triangles[t][k2], d = mesh_.triangles[o][m2];
         const double bc = mesh_.lengths[t][k1], ca = mesh_.lengths[t][k2];
         const double ad = mesh_.lengths[o][m1], db = mesh_.lengths[o][m2];
-        // The neighbours across the four outer sides of the two triangles. A neighbour may be one
-        // of the two triangles itself.
+        // The neighbours across the four outer sides of the two triangles. A neighbour may itself
+        // be one of the two triangles.
         std::array<TriangleEdge, 4> beyond = {mesh_.across[o][m2], mesh_.across[t][k1],
                                               mesh_.across[t][k2], mesh_.across[o][m1]};
         const std::array<TriangleEdge, 4> old = {TriangleEdge{o, m2}, {t, k1}, {t, k2}, {o, m1}};
@@ -88,8 +88,8 @@ private:
         if (other.exists()) mesh_.across[other.triangle][other.edge] = here;
     }
 
-    /// The position of a triangle's third corner, if `edge` begins at the origin and lies on the x
-    /// axis.
+    /// The position of a triangle's third corner in a frame where `edge` begins at the origin and
+    /// lies on the x axis.
     Vector2d apex(TriangleEdge edge) const {
         const auto& sides = mesh_.lengths[edge.triangle];
         const double base = sides[edge.edge];
@@ -98,8 +98,8 @@ private:
         return {x, 2 * mesh_.area(edge.triangle) / base};
     }
 
-    /// Converts the apex of the triangle on the other side of the edge. In that triangle the edge
-    /// has the opposite direction.
+    /// Converts the apex of the triangle across the edge to the frame of this triangle. The edge
+    /// has opposite directions in the two triangles.
     static Vector2d mirrored(Vector2d apex, double base) { return {base - apex.x, -apex.y}; }
 
     IntrinsicMesh mesh_;

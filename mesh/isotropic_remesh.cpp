@@ -1,4 +1,4 @@
-// The rounds of Botsch and Kobbelt's local operations.
+// The rounds of local operations by Botsch and Kobbelt.
 #include "mesh/isotropic_remesh.h"
 
 #include "mesh/collapse_edges.h"
@@ -11,13 +11,14 @@ namespace cascade {
 
 namespace {
 
-constexpr double longest_edge_part = 4.0 / 3;  ///< As a multiple of the target edge length.
+/// The longest edge, as a multiple of the target edge length.
+constexpr double longest_edge_part = 4.0 / 3;
 /// For each round, the length below which edges are collapsed, as a multiple of the target edge
 /// length.
 constexpr std::array shortest = {0.3, 0.5, 0.65, 0.8, 0.8, 0.0, 0.0, 0.0};
 constexpr int most_flip_passes = 6;
 constexpr double smoothing = 0.6;
-constexpr double angle_tolerance = 1e-6;  ///< Tolerance for sums of two angles.
+constexpr double angle_tolerance = 1e-6;  ///< The tolerance for sums of two angles.
 constexpr double flattest_fold = 0.7;     ///< The smallest cosine at an edge that may be flipped.
 
 /// The cosine and the sine of the angle opposite a half-edge, each multiplied by the lengths of the
@@ -57,7 +58,7 @@ bool wants_flip(const HalfEdges& mesh, EdgeHandle e) {
     return mesh.valence(from) > 3 && mesh.valence(to) > 3 && mesh.is_flip_ok(e);
 }
 
-/// Flips edges until no two angles opposite an edge exceed 180° together.
+/// Flips edges until the two angles opposite each edge sum to at most 180°.
 void flip_edges(HalfEdges& mesh) {
     std::vector<EdgeHandle> suspects, next;
     for (const EdgeHandle e : mesh.edges()) suspects.push_back(e);
@@ -98,7 +99,7 @@ std::vector<Vector3d> spread(const SurfaceMesh& mesh, std::span<const Vector3d> 
     return places;
 }
 
-/// Moves the points, except where that would turn a triangle over.
+/// Moves the points, except where a move would turn a triangle over.
 void move_points(SurfaceMesh& mesh, std::vector<Vector3d> places) {
     for (bool is_fine = false; !is_fine;) {
         is_fine = true;

@@ -22,7 +22,7 @@ using BringBack =
 ///   surface.
 /// - Flips edges until the two angles opposite each edge sum to at most 180°.
 /// - Moves points along the surface to the centroid of the triangles around them, unless that would
-///   turn a triangle over. Then `bring_back` moves them to the original surface.
+///   turn a triangle over. Then projects the points to the original surface by `bring_back`.
 ///
 /// The mesh must be closed, without texture coordinates, attributes and double edges. Fails if
 /// `bring_back` fails, and as half_edges() does. Stops early when `cancel` becomes true. Throws

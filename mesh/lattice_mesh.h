@@ -15,7 +15,7 @@ namespace cascade {
 inline constexpr double tau = 2 * std::numbers::pi;
 
 /// Cuts rectangle (i, j) of a lattice into two triangles. Adjacent rectangles are cut along
-/// different diagonals, which avoids a preferred direction.
+/// different diagonals, so that no direction is preferred.
 template <typename Corner>
 void cut_rectangle(std::size_t i, std::size_t j, const Corner& corner) {
     const std::array<std::pair<std::size_t, std::size_t>, 4> ring = {

@@ -36,7 +36,7 @@ Joint slope_at(const std::vector<Joint>& joints, std::size_t k) {
     return (slope(k - 1) * after + slope(k) * before) * (1 / (before + after));
 }
 
-/// Points along the smooth curve, including the joints.
+/// Points along the smooth curve, including the given joints.
 std::vector<Joint> curve_through(const std::vector<Joint>& joints) {
     std::vector<Joint> points{joints[0]};
     for (std::size_t k = 0; k + 1 < joints.size(); ++k) {
@@ -79,10 +79,10 @@ LimbBody::Bone::Bone(Vector3d start, double from_radius, Vector3d to, double to_
       direction(unit(to - start)),
       extent(length(to - start)),
       radius(from_radius),
-      // If one ball contains the other, there is no cone.
+      // If one ball contains the other, no cone touches both, so the growth is limited.
       growth(extent > 0 ? std::clamp((to_radius - from_radius) / extent, -steepest, steepest) : 0),
       lean(growth / std::sqrt(1 - growth * growth)),
-      // Slightly larger than needed, because of rounding.
+      // The radius is slightly larger than needed, because of rounding.
       ball{start + direction * (extent / 2),
            1.000001 * (extent / 2 + std::max(radius, radius + growth * extent))} {}
 
@@ -93,7 +93,7 @@ WITH_WIDE_VECTORS void LimbBody::Bone::lower(Numbers& distances, const Block& po
         const double along = dot(away, direction);
         const double square = dot(away, away) - along * along;
         const double aside = std::sqrt(square > 0 ? square : 0);
-        // Projects the point onto the bone at the ball whose flesh is nearest.
+        // Projects the point onto the bone, to the centre of the ball whose flesh is nearest.
         const double nearest = along + lean * aside;
         const double place = nearest < 0 ? 0 : nearest > extent ? extent : nearest;
         const double rest = along - place;

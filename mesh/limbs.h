@@ -20,7 +20,7 @@ struct Joint {
     double radius = 0;
 };
 
-enum class Sides { one, both };  ///< Both: the limb has a mirror image, with x negated.
+enum class Sides { one, both };  ///< With `both`, the limb has a mirror image, with x negated.
 
 /// Flesh around the smooth curve through `joints`, of which there is at least one. The flesh ends
 /// in half balls.
@@ -70,21 +70,21 @@ private:
     struct Bone {
         Bone(Vector3d from, double from_radius, Vector3d to, double to_radius);
 
-        /// Replaces each of `distances` by the distance of its point from the bone's flesh
-        /// (negative inside) if this is smaller.
+        /// For each point, replaces its number in `distances` by the point's distance from the
+        /// bone's flesh (negative inside) if that distance is smaller.
         WITH_WIDE_VECTORS void lower(Numbers& distances, const Block& points) const;
 
         Vector3d from, direction;
         double extent = 0;
         double radius = 0,
                growth = 0;  ///< The radius at the start, and its increase per unit of length.
-        double lean = 0;    ///< The lean of the surface's normals along the bone, per unit of
-                            ///< distance from the bone.
-        Ball ball;          ///< Contains the flesh.
+        /// The tangent of the angle by which the surface's normals lean along the bone.
+        double lean = 0;
+        Ball ball;  ///< Contains the flesh.
     };
-    /// A limb, or the mirror image of one, with a box that contains its flesh.
+    /// A limb or its mirror image, with a box that contains its flesh.
     struct Part {
-        std::size_t first = 0, last = 0;  ///< The range of its bones.
+        std::size_t first = 0, last = 0;  ///< The range of the limb's bones.
         double softness = 0;
         Vector3d flat;
         SurfaceMesh::Box box;

@@ -77,7 +77,7 @@ private:
         return {};
     }
 
-    /// Merges points at the same position into the first of them.
+    /// Replaces points at the same position by the first of them.
     void join_points() {
         joined_.resize(soup_.points.size());
         PointTable places(soup_.points);
@@ -134,7 +134,7 @@ private:
         return {};
     }
 
-    /// Keeps only the first of triangles with the same three points.
+    /// Keeps only the first of the triangles that have the same three points.
     void leave_out_doubles() {
         std::vector<std::pair<std::array<std::uint32_t, 3>, std::uint32_t>> keys;
         keys.reserve(corners_.size());
@@ -246,8 +246,9 @@ private:
 
     PolygonSoup soup_;
     std::vector<bool> is_used_;
-    std::vector<std::uint32_t> joined_;                  ///< By point: the surviving point.
-    std::vector<std::array<std::uint32_t, 3>> corners_;  ///< Triangles as corners of the soup.
+    std::vector<std::uint32_t> joined_;  ///< The surviving point of each point.
+    /// Triangles by their corners in the soup.
+    std::vector<std::array<std::uint32_t, 3>> corners_;
     MadeMesh made_;
 };
 

@@ -1,4 +1,4 @@
-// Groups corners that are connected across edges without a crease. Each group has one normal.
+// Groups corners that are connected across edges without a crease, and gives each group one normal.
 #include "mesh/normals.h"
 
 #include "mesh/disjoint_sets.h"
@@ -18,7 +18,8 @@ Vector3d unit_or(Vector3d a, Vector3d otherwise) {
     return length(scaled) > 0.5 ? scaled : otherwise;
 }
 
-/// Corner k of triangle t has the index 3 t + k.
+/// Joins the corners at each point that no crease separates. Corner k of triangle t has the index 3
+/// t + k.
 DisjointSets smooth_groups(const SurfaceMesh& mesh) {
     std::vector<Vector3d> normals;
     normals.reserve(mesh.triangles.size());

@@ -21,8 +21,8 @@ struct FaceCorner {
     std::optional<std::uint32_t> texture;
 };
 
-/// Joins each line that ends in a backslash with the next. Blanks replace the backslash and the
-/// line end, to preserve offsets.
+/// Joins each line that ends in a backslash with the next line. Blanks replace the backslash and
+/// the line end, to preserve offsets.
 std::string joined_lines(std::string_view bytes) {
     std::string text(bytes);
     for (std::size_t at = text.find('\\'); at != std::string::npos; at = text.find('\\', at + 1)) {
@@ -75,7 +75,7 @@ private:
         return words.size() < 4 ? "write three coordinates for each point" : "";
     }
 
-    /// Three coordinates, optionally followed by a colour.
+    /// Reads three coordinates, optionally followed by a colour.
     bool read_point(const Words& words) {
         std::array<double, 6> numbers{};
         const std::size_t count = std::min<std::size_t>(words.size() - 1, 6);
@@ -115,7 +115,8 @@ private:
         return true;
     }
 
-    /// Parses "point", "point/texture", "point//normal" or "point/texture/normal".
+    /// Parses a corner written as "point", "point/texture", "point//normal" or
+    /// "point/texture/normal".
     std::optional<FaceCorner> corner_in(std::string_view word) const {
         const std::size_t slash = std::min(word.find('/'), word.size());
         const auto point = number_of(word.substr(0, slash), std::ssize(soup_.points));
@@ -129,8 +130,8 @@ private:
         return corner;
     }
 
-    /// An index that counts from 1, or a negative index that counts backwards from the latest
-    /// entry.
+    /// Reads an index. A positive index counts from 1. A negative index counts backwards from the
+    /// latest entry.
     static std::optional<std::uint32_t> number_of(std::string_view word, std::int64_t so_far) {
         const auto number = whole_number_in<std::int64_t>(word);
         if (!number || *number > most_points || *number < -so_far || *number == 0)
@@ -171,10 +172,12 @@ private:
                       {PointAttribute{"red", {}}, PointAttribute{"green", {}},
                        PointAttribute{"blue", {}}}};
     std::vector<TexturePlace> texture_;
-    /// For each corner the index of its texture coordinates, as long as every corner has some.
+    /// For each corner, the index of its texture coordinates. Filled as long as every corner has
+    /// some.
     std::vector<std::uint32_t> corner_texture_;
     bool all_have_texture_ = true, all_have_colours_ = true;
-    bool has_curved_parts_ = false;  ///< Whether it has free-form surfaces, which are ignored.
+    /// Whether the file has free-form surfaces, which are ignored.
+    bool has_curved_parts_ = false;
 };
 
 }  // namespace

@@ -11,7 +11,8 @@ namespace cascade {
 
 namespace {
 
-constexpr std::size_t least_point = 6, least_face = 2;  ///< In bytes, with the end of the line.
+/// The fewest bytes of a line, with its end.
+constexpr std::size_t least_point = 6, least_face = 2;
 
 /// The data of points besides positions, as declared by the first word.
 struct Extras {
@@ -68,7 +69,7 @@ private:
         return failure(fmt::format("line {} of the OFF file is not {}", lines_.number(), what));
     }
 
-    /// The word OFF may be missing. The counts may be on its line.
+    /// Reads the word OFF, which may be missing, and the counts, which may be on the same line.
     bool read_head() {
         Words words = lines_.next();
         if (words.empty()) return false;
@@ -102,7 +103,7 @@ private:
         const std::size_t first = extras_.normal ? 6 : 3;
         if (!extras_.colour) return true;
         if (numbers_.size() < first + 3) return false;
-        // Colours are integers up to 255, or fractions.
+        // Colours are integers of at most 255, or fractions.
         const bool is_fraction = words[first].find('.') != std::string_view::npos;
         for (std::size_t k = 0; k < 3; ++k) {
             soup_.attributes[k].values.push_back(
@@ -111,7 +112,7 @@ private:
         return true;
     }
 
-    /// A colour may follow the corners.
+    /// Reads the corners of a face. A colour may follow them.
     bool read_face(const Words& words) {
         if (words.empty()) return false;
         const auto count = whole_number_in<std::uint32_t>(words[0]);

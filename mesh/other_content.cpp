@@ -23,7 +23,8 @@ constexpr std::array contents = {
     Content{"<html", "is a page of HTML", "the download of the model has failed"},
 };
 
-/// The beginnings of formats that other formats never begin with, and their extensions.
+/// The beginnings of formats, and the extensions of these formats. No other format begins in the
+/// same way.
 struct Beginning {
     std::string_view text, format;
     std::array<std::string_view, 2> endings;

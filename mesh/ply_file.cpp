@@ -25,12 +25,12 @@ public:
     NumberReader(std::string_view bytes, const PlyHeader& header)
         : bytes_(bytes), at_(header.size), format_(header.format) {}
 
-    /// Empty at the end of the file or if a text is not a number.
+    /// The next number; nullopt at the end of the file, or if a word is not a number.
     std::optional<double> next(PlyNumber type) {
         return format_ == PlyHeader::Format::text ? next_word() : next_binary(type);
     }
     std::size_t left() const { return bytes_.size() - at_; }
-    /// Whether a text goes on after the last number that was read.
+    /// Whether a file of text has more words after the last number that was read.
     bool has_more_words() const {
         if (format_ != PlyHeader::Format::text) return false;
         const std::string_view rest = bytes_.substr(at_);
@@ -82,7 +82,7 @@ private:
     PlyHeader::Format format_;
 };
 
-/// The columns of a point's numbers, −1 for numbers that the file lacks.
+/// The columns with a point's numbers; −1 for numbers that the file lacks.
 struct PointColumns {
     std::array<int, 3> place{-1, -1, -1};
     std::array<int, 2> texture{-1, -1};
@@ -92,7 +92,7 @@ bool is_one_of(std::string_view name, std::initializer_list<std::string_view> na
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// The value of full light in numbers of this type.
+/// The value of full light if colours have this type.
 float full_value(PlyNumber type) {
     switch (type) {
         case PlyNumber::uint16: return std::numeric_limits<std::uint16_t>::max();
@@ -168,7 +168,8 @@ public:
     }
 
 private:
-    /// The name of the only list of faces; "" if there are no faces or several lists.
+    /// The name of the faces' only list if it is not a usual name for corners. "" if there is no
+    /// such list.
     std::string other_list() const {
         for (const PlyElement& element : header_.elements) {
             if (element.name != "face" || element.count == 0) continue;
@@ -239,8 +240,8 @@ private:
             }
             if (name == "texcoord") add_texture(lists_[k]);
         }
-        // If a face has texture coordinates for more or fewer corners than it has, the coordinates
-        // of all later faces would go to wrong corners.
+        // If a face has more or fewer texture coordinates than corners, the coordinates of all
+        // later faces would go to wrong corners.
         corners_have_texture_ =
             corners_have_texture_ && soup_.texture.size() == soup_.corners.size();
         return {};
@@ -279,8 +280,8 @@ private:
         return true;
     }
 
-    /// Adds triangle strips, which are listed one after another and separated by −1. Reverses every
-    /// second triangle.
+    /// Adds triangle strips. `strip` lists them one after another, separated by −1. Every second
+    /// triangle of a strip is reversed.
     bool add_strips(const std::vector<double>& strip) {
         std::size_t begin = 0;
         for (std::size_t k = 0; k < strip.size(); ++k) {

@@ -126,7 +126,7 @@ private:
     std::string_view bytes_;
     std::size_t at_ = 0;
     std::size_t line_ = 0;
-    char line_end_ = '\n';  ///< '\r' in files of old Macintosh programs.
+    char line_end_ = '\n';  ///< It is '\r' in files of old Macintosh programs.
     PlyHeader header_;
 };
 
@@ -147,7 +147,7 @@ std::size_t size_of(PlyNumber type) {
 }
 
 std::size_t PlyElement::least_bytes(bool is_text) const {
-    if (is_text) return 2 * properties.size();  // A digit and a blank each.
+    if (is_text) return 2 * properties.size();  // At least a digit and a blank for each property.
     std::size_t bytes = 0;
     for (const PlyProperty& property : properties) {
         bytes += size_of(property.is_list ? property.count_type : property.type);
@@ -159,7 +159,7 @@ Result<PlyHeader> read_ply_header(std::string_view bytes) {
     Result<PlyHeader> header = HeaderReader(bytes).read();
     if (!header) return header;
     const bool is_text = header->format == PlyHeader::Format::text;
-    std::size_t left = bytes.size() - header->size + 1;  // The last blank may be missing.
+    std::size_t left = bytes.size() - header->size + 1;  // The file may end without the last blank.
     for (const PlyElement& element : header->elements) {
         const std::size_t least = element.least_bytes(is_text);
         if (least == 0) {

@@ -13,7 +13,7 @@ namespace cascade {
 
 enum class PlyNumber : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
-/// Bytes of a number in a binary file.
+/// The number of bytes that a number takes in a binary file.
 std::size_t size_of(PlyNumber type);
 
 struct PlyProperty {

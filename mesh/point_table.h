@@ -15,8 +15,8 @@ class PointTable {
 public:
     explicit PointTable(const std::vector<Vector3d>& points) : points_(points), slots_(64, empty) {}
 
-    /// The first added point with the same position as point `number`. If there is none, adds
-    /// `number`.
+    /// The first added point at the same position as point `number`. If there is no such point,
+    /// adds `number` and returns it.
     std::uint32_t find_or_add(std::uint32_t number) {
         if (2 * (count_ + 1) > slots_.size()) grow();
         std::uint32_t& slot = slot_of(points_[number]);

@@ -1,5 +1,5 @@
 // The content of a model file: polygons over points, without adjacency. Guarantees only that every
-// corner is one of the points. make_mesh() makes a SurfaceMesh from it.
+// corner is one of the points. make_mesh() makes a SurfaceMesh from these polygons.
 #pragma once
 
 #include "core/vector3.h"
@@ -16,7 +16,7 @@ namespace cascade {
 struct PointAttribute {
     std::string name;
     std::vector<float> values;  ///< One per point.
-    // How the file represents colours:
+    // The next two members say how the file represents colours.
     float full = 1;         ///< The value of full light: 255 if the file stores bytes.
     bool is_light = false;  ///< Whether values are proportional to light. Otherwise they are sRGB.
 
@@ -29,9 +29,10 @@ using TexturePlace = std::array<float, 2>;
 
 struct PolygonSoup {
     std::vector<Vector3d> points;
-    std::vector<std::uint32_t> corners;  ///< Indices of points, polygon after polygon.
-    std::vector<std::size_t> ends;       ///< Polygon p ends before corner ends[p].
-    std::vector<TexturePlace> texture;   ///< One per corner. Empty if the file has none.
+    std::vector<std::uint32_t> corners;  ///< Indices of points, one polygon after another.
+    std::vector<std::size_t> ends;       ///< Polygon p ends before corners[ends[p]].
+    /// One per corner. Empty if the file has no texture coordinates.
+    std::vector<TexturePlace> texture;
     std::vector<PointAttribute> attributes;
 
     std::size_t polygon_count() const { return ends.size(); }

@@ -1,4 +1,5 @@
-// Joins the corners of triangles across shared edges in disjoint sets. Each set is a fan.
+// Joins, in disjoint sets, the corners at one point of triangles that share an edge. Each set is a
+// fan.
 #include "mesh/separate_fans.h"
 
 #include "mesh/disjoint_sets.h"
@@ -25,7 +26,8 @@ std::vector<std::uint32_t> separate_fans(SurfaceMesh& mesh) {
     for (std::uint32_t c = 0; c < corners; ++c) {
         if (fans.find(c) == c) owners.emplace_back(mesh.triangles[c / 3][c % 3], c);
     }
-    std::size_t points = 0;  // Computed, because the mesh's points may be elsewhere.
+    // Computed from the triangles, because the mesh's points may be elsewhere.
+    std::size_t points = 0;
     for (const auto& owner : owners)
         points = std::max<std::size_t>(points, owner.first + std::size_t{1});
     sort_by_point(owners, points, [](const auto& owner) { return owner.first; });

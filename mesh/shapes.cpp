@@ -35,7 +35,7 @@ Vector3d reflected(Vector3d v, Vector3d across) {
     return v - across * (2 * dot(across, v) / dot(across, across));
 }
 
-/// Unit normals of the curve at n points, and once more at the first point after a whole turn.
+/// Unit normals of the curve at n points, and at the first point again after a whole turn.
 std::vector<Vector3d> normals_along(std::uint32_t n) {
     std::vector<Vector3d> normals{cross(tangent(0), Vector3d{0, 0, 1})};
     normals[0] = normals[0] * (1 / length(normals[0]));
@@ -102,10 +102,10 @@ private:
         for (const Vector3d& corner : corners_) points_.push_back(corner * radius_);
     }
 
-    /// Adds the weighted sum of the corners, scaled to the sphere. The weight of a corner is
-    /// sin(angle · its part / cuts_), where `angle` is the angle between two corners. If only two
-    /// corners have parts above 0, the point divides the arc between these corners in the ratio of
-    /// the parts.
+    /// Adds the weighted sum of three corners, scaled to the sphere. The weight of a corner is
+    /// sin(angle · part / cuts_), where `angle` is the angle between two corners of the
+    /// icosahedron. If only two corners have parts above 0, the point divides the arc between these
+    /// corners in the ratio of the parts.
     std::uint32_t add_point(std::array<std::uint32_t, 3> corners,
                             std::array<std::uint32_t, 3> parts) {
         static const double angle = std::acos(1 / std::sqrt(5.0));
@@ -117,7 +117,8 @@ private:
         return static_cast<std::uint32_t>(points_.size() - 1);
     }
 
-    /// Point `k` of an edge, counted from `from`. Both sides of the edge share it.
+    /// Point `k` of an edge, counted from `from`. The two sides of the icosahedron at the edge
+    /// share this point.
     std::uint32_t on_edge(std::uint32_t from, std::uint32_t to, std::uint32_t k) {
         if (k == 0) return from;
         if (k == cuts_) return to;
@@ -147,7 +148,8 @@ private:
         }
     }
 
-    /// Longitude and latitude from 0 to 1.
+    /// The longitude and latitude of each corner, scaled to 0 … 1. Longitudes may exceed 1 at the
+    /// seam.
     std::array<TexturePlace, 3> places_of(const SurfaceMesh& mesh, std::size_t t) const {
         const auto longitude = [](Vector3d p) { return 0.5 + std::atan2(p.x, p.z) / tau; };
         const double middle = longitude(mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2));
@@ -172,21 +174,22 @@ private:
     std::uint32_t cuts_;
     std::vector<Vector3d> corners_, points_;
     std::vector<std::array<std::uint32_t, 3>> triangles_;
-    /// For the two corners of each edge, the first of the points between them.
+    /// The first of the points on each edge, by the edge's two corners.
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> edges_;
 };
 
 /// Indices of a point in the lattice of a box.
 using Step = std::array<std::uint32_t, 3>;
 
-/// One side of a box: from a corner along two axes, whose cross product points outwards.
+/// One side of a box. It begins at a corner and extends along two axes, whose cross product points
+/// outwards.
 struct BoxSide {
-    Step corner;             ///< 0 or 1 per axis: its low or its high end.
-    std::size_t across, up;  ///< The axes.
+    Step corner;             ///< 0 for the low end, 1 for the high end of each axis.
+    std::size_t across, up;  ///< The axes along which the side extends.
     bool is_backwards;       ///< `across` runs from the high to the low end.
     bool is_downwards;       ///< `up` runs from the high to the low end.
-    /// The position in the net of the box: how many depths and widths are to the left of the side,
-    /// and how many depths and heights below it.
+    /// The position in the net of the box: the number of depths and of widths to the left of the
+    /// side, then the number of depths and of heights below it.
     std::array<int, 4> net;
 };
 
@@ -280,7 +283,7 @@ Result<SurfaceMesh> knot_mesh(double radius, double edge) {
     }
     const auto n = static_cast<std::uint32_t>(std::max(24.0, columns));
     const std::vector<Vector3d> normals = normals_along(n);
-    // The angle between the last normal and the first one, which should be equal.
+    // The angle by which the last normal misses the first one.
     const Vector3d across = cross(tangent(0), normals[0]);
     const double missing = std::atan2(dot(normals[n], across), dot(normals[n], normals[0]));
     return ring_lattice(n, static_cast<std::uint32_t>(rows), [&](std::uint32_t i, std::uint32_t j) {
@@ -295,7 +298,7 @@ Result<SurfaceMesh> sphere_mesh(double radius, double edge) {
         return tl::unexpected(fine.error());
     if (const auto fine = check_length("the edge", edge); !fine)
         return tl::unexpected(fine.error());
-    // The number of equilateral triangles with this edge that cover the sphere.
+    // 20 n² equilateral triangles with this edge have the area of the sphere.
     const double n = cuts(radius * std::sqrt(4 * std::numbers::pi / (5 * std::sqrt(3.0))), edge, 1);
     if (const auto fine = check_count(20 * n * n); !fine) return tl::unexpected(fine.error());
     return SphereMaker(radius, static_cast<std::uint32_t>(n)).make();

@@ -1,4 +1,5 @@
-// A module of OpenMesh's decimater computes the cost of each collapse and refuses some.
+// A module of OpenMesh's decimater that computes the cost of each collapse and refuses some
+// collapses.
 #include "mesh/simplify.h"
 
 #include "core/check.h"
@@ -19,7 +20,7 @@ namespace cascade {
 
 namespace {
 
-// The error of a point that replaces others, in its position and its attributes.
+// The error of a point, in its position and its attributes, after it has replaced other points.
 
 /// A function of a point and its attributes: a sum over triangles, weighted by area. A triangle's
 /// term is the squared distance of the point from the triangle's plane, plus the squared
@@ -38,9 +39,9 @@ public:
                       const std::array<Attributes, 3>& values, std::size_t attributes);
     PointQuadric& operator+=(const PointQuadric& other);
 
-    /// The error of a point at this position. Rounding may make it slightly negative.
+    /// The error of a point at this position. Rounding may make the error slightly negative.
     double error(Vector3d point, const Attributes& values, std::size_t attributes) const;
-    /// The area of the triangles added.
+    /// The area of all triangles added so far.
     double area() const { return area_; }
 
 private:
@@ -50,7 +51,7 @@ private:
     std::array<double, 6> squares_{};  ///< xx, xy, xz, yy, yz, zz.
     Vector3d linear_;
     double constant_ = 0, area_ = 0;
-    std::array<Vector3d, most_attributes> slopes_{};  ///< Σ area · gradient.
+    std::array<Vector3d, most_attributes> slopes_{};  ///< The sums of area · gradient.
     Attributes offsets_{};
 };
 
@@ -116,15 +117,15 @@ using OpenMesh::Decimater::ModBaseT;
 using Decimater = OpenMesh::Decimater::DecimaterT<HalfEdges>;
 
 constexpr unsigned most_edges_of_merged = 12;
-/// The weight of an edge's length. It makes short edges collapse first where no collapse changes
-/// anything, such as in a flat part of one colour.
+/// The weight of an edge's length in the cost of its collapse. Where no collapse changes anything,
+/// such as in a flat part of one colour, the length makes short edges collapse first.
 constexpr double weight_of_length = 1e-5;
-/// The weight of squared distances from the planes through boundary edges, relative to those from
-/// the triangles' planes.
+/// The weight of squared distances from the planes through boundary edges. The weight of distances
+/// from the triangles' planes is 1.
 constexpr double weight_of_boundary = 4;
 
-/// Priorities are the errors of the merged points. Lengths are relative to the surface's box, so
-/// that they fit into OpenMesh's `float`.
+/// The priority of a collapse is the error of the merged point. Lengths are relative to the
+/// surface's box, so that priorities fit into OpenMesh's `float`.
 class PatternModule : public ModBaseT<HalfEdges> {
 public:
     using Handle = OpenMesh::Decimater::ModHandleT<PatternModule>;
@@ -168,7 +169,7 @@ public:
         const double error = std::max(0.0, sum.error(to, values_of(collapse.v1), attributes_));
         const auto cost = static_cast<float>(error + weight_of_length * own_area * dot(way, way));
         // The decimater requests the costs of all edges of a vertex in turn and takes the cheapest.
-        // An edge that costs more than one already allowed needs no further test.
+        // An edge that costs more than an already allowed edge of the vertex needs no further test.
         if (collapse.v0 == asked_ && cost >= cheapest_) return cost;
         if (!is_allowed(collapse)) return ILLEGAL_COLLAPSE;
         asked_ = collapse.v0;
@@ -221,8 +222,8 @@ private:
         for (const VertexHandle v : {from, to}) quadrics_[number(v)] += quadric;
     }
 
-    /// Whether the neighbour across a collapsed triangle keeps enough triangles. If it had only
-    /// three, two coinciding triangles would remain there.
+    /// Whether the vertex opposite a collapsed edge keeps enough triangles. If it had only three
+    /// triangles, two coinciding ones would remain.
     bool keeps_triangles(VertexHandle across) {
         return !across.is_valid() ||
                mesh().valence(across) > (mesh().is_boundary(across) ? 2U : 3U);
@@ -243,7 +244,7 @@ private:
     std::vector<PointQuadric::Attributes> values_;
     std::vector<PointQuadric> quadrics_;
     VertexHandle asked_;               ///< The vertex of the last collapse that was allowed.
-    float cheapest_ = 0;               ///< The cost of that collapse.
+    float cheapest_ = 0;               ///< The cost of the last collapse that was allowed.
     std::vector<std::uint32_t> into_;  ///< The vertex into which each vertex has merged.
 };
 

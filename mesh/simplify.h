@@ -14,7 +14,7 @@ namespace cascade {
 
 /// A pattern that simplify() preserves: up to three numbers at each point, such as a colour.
 struct KeptPattern {
-    std::span<const std::array<float, 3>> values;  ///< One per point. Empty if there is none.
+    std::span<const std::array<float, 3>> values;  ///< One per point. Empty if there is no pattern.
     /// The distance on the surface that counts as much as a difference of 1 in one of the numbers.
     double length = 0;
 };
@@ -23,17 +23,17 @@ struct Simplified {
     /// The result. Its points are points of the original, in their order, with their attributes.
     /// Triangles have no texture coordinates and no faces.
     SurfaceMesh mesh;
-    /// For each point of the result, the point of the original.
+    /// The point of the original for each point of the result.
     std::vector<std::uint32_t> points;
-    /// For each point of the original, the point of the result into which it has merged.
+    /// The point of the result into which each point of the original has merged.
     std::vector<std::uint32_t> merged;
 };
 
 /// The surface with about `triangles` triangles, at most one more. Collapses edges into one of
 /// their ends, in order of least change to the surface and the pattern. Components, handles and
-/// boundaries remain, and corners of boundaries stay. Stops with more triangles if every further
-/// collapse would change one of these or fold triangles over. Values that are not finite count as
-/// 0. The result is the same in every run.
+/// boundaries remain, and corners of boundaries stay. If every further collapse would change one of
+/// these or fold triangles over, more triangles remain. Values that are not finite count as 0. The
+/// result is the same in every run.
 ///
 /// Fails as half_edges() does. Throws std::bad_alloc. The result is meaningless if `cancel` became
 /// true.

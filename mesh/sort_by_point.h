@@ -16,7 +16,7 @@ void sort_by_point(std::vector<Item>& items, std::size_t point_count, const Poin
     for (std::size_t p = 0; p < point_count; ++p) ends[p + 1] += ends[p];
     std::vector<Item> sorted(items.size());
     for (const Item& item : items)
-        // Turns the start of each point's items into their end.
+        // Inserting the items moves the start of each point's items to their end.
         sorted[ends[point_of(item)]++] = item;
     std::size_t begin = 0;
     for (std::size_t p = 0; p < point_count; ++p) {

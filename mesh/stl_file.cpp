@@ -20,7 +20,7 @@ constexpr std::size_t head_size = 84, triangle_size = 50;  ///< Sizes in bytes i
 class MergedSoup {
 public:
     MergedSoup() = default;
-    MergedSoup(const MergedSoup&) = delete;  // Because the table refers to the points.
+    MergedSoup(const MergedSoup&) = delete;  // The table refers to the points.
     MergedSoup& operator=(const MergedSoup&) = delete;
 
     void add_corner(Vector3d p) {
@@ -78,7 +78,8 @@ Result<PolygonSoup> read_text(std::string_view bytes) {
     for (;;) {
         const std::vector<std::string_view>& words = lines.next();
         if (words.empty()) break;
-        // Some programs write several facets in a line. Text after an unknown word is a remark.
+        // Some programs write several facets in a line. Unknown words and the rest of their line
+        // count as remarks.
         for (std::size_t at = 0; at < words.size(); ++at) {
             if (is_word(words[at], "outer")) {
                 if (is_in_loop) return wrong_line("begins a loop in a loop");
@@ -104,7 +105,7 @@ Result<PolygonSoup> read_text(std::string_view bytes) {
                 const bool begins = is_word(words[at], "solid");
                 if (!begins && !is_word(words[at], "endsolid")) break;
                 is_in_solid = begins;
-                // Skips the name of the solid.
+                // The name of a solid is skipped.
                 const auto is_end = [&](std::string_view word) {
                     return begins ? is_word(word, "facet") || is_word(word, "endsolid")
                                   : is_word(word, "solid");
@@ -125,11 +126,11 @@ Result<PolygonSoup> read_stl(std::string_view bytes) {
     const bool has_head = bytes.size() >= head_size;
     const std::size_t count = has_head ? word_at(bytes, head_size - 4) : 0;
     const std::size_t wanted = head_size + count * triangle_size;
-    // Text contains no byte of 0, but the number of triangles in a binary file does.
+    // A text contains no zero byte, but the number of triangles in a binary file does.
     const bool has_number = has_head && bytes.substr(head_size - 4, 4).find('\0') != bytes.npos;
     if (has_head && bytes.size() == wanted) return read_binary(bytes, count);
-    // Some programs append other data after the triangles. But if the rest is as long as the
-    // triangles, the number of triangles is probably wrong.
+    // Some programs append other data after the triangles. But if the appended data are as long as
+    // the triangles, the number of triangles is probably wrong.
     const bool is_longer = bytes.size() > wanted;
     const bool has_more = is_longer && (bytes.size() - wanted) % triangle_size == 0;
     if (has_number && count > 0 && is_longer && !has_more) return read_binary(bytes, count);

@@ -1,5 +1,5 @@
-// OpenMesh makes the points and triangles. Everything else follows from the order in which it makes
-// them: a point for each edge, and three triangles at the corners of each old triangle.
+// OpenMesh makes the points and triangles. Everything else follows from the order in which OpenMesh
+// makes them: a point for each edge, and three triangles at the corners of each old triangle.
 #include "mesh/subdivide.h"
 
 #include "core/counted.h"
@@ -45,8 +45,8 @@ void halve_attributes(const EdgeEnds& edges, std::vector<PointAttribute>& attrib
     }
 }
 
-/// The texture coordinates of the triangles of `fine`, each of which is a part of a triangle of
-/// `coarse`.
+/// The texture coordinates of the triangles of `fine`. Each of these triangles is a part of a
+/// triangle of `coarse`.
 std::vector<std::array<TexturePlace, 3>> halved_texture(const SurfaceMesh& coarse,
                                                         const EdgeEnds& edges,
                                                         const SurfaceMesh& fine) {

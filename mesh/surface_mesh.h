@@ -23,7 +23,7 @@ constexpr Index corner_before(Index k) {
     return k == 0 ? 2 : k - 1;
 }
 
-/// Edge k of a triangle goes from corner k to corner k + 1 (modulo 3).
+/// An edge of a triangle. Edge k goes from corner k to corner k + 1 (modulo 3).
 struct TriangleEdge {
     static constexpr std::uint32_t none = 0xffffffff;
     std::uint32_t triangle = none;
@@ -36,9 +36,12 @@ struct TriangleEdge {
 struct SurfaceMesh {
     std::vector<Vector3d> points;
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< Counterclockwise, seen from outside.
-    /// For edge k of each triangle: the edge of the adjacent triangle there, if any.
+    /// For edge k of each triangle: the edge of the adjacent triangle across this edge, if there is
+    /// one.
     std::vector<std::array<TriangleEdge, 3>> across;
-    std::vector<std::array<TexturePlace, 3>> texture;  ///< Per triangle. Empty if there is none.
+    /// The texture coordinates of each triangle's corners. Empty if there are no texture
+    /// coordinates.
+    std::vector<std::array<TexturePlace, 3>> texture;
     std::vector<PointAttribute> attributes;
     /// The face of the model from which each triangle was cut, counted from 0. A merged triangle
     /// without area belongs to its neighbour's face. Empty if the model has only triangles.
@@ -47,7 +50,7 @@ struct SurfaceMesh {
     Vector3d corner(std::size_t triangle, std::size_t k) const {
         return points[triangles[triangle][k]];
     }
-    /// The outward normal of a triangle, with twice its area as length.
+    /// The outward normal of a triangle. Its length is twice the triangle's area.
     Vector3d double_area_normal(std::size_t triangle) const {
         const Vector3d a = corner(triangle, 0);
         return cross(corner(triangle, 1) - a, corner(triangle, 2) - a);
@@ -70,9 +73,9 @@ struct SurfaceMesh {
 /// Global properties of a mesh.
 struct MeshFacts {
     std::size_t points = 0, triangles = 0, edges = 0;
-    std::size_t components = 0;  ///< Parts connected over edges.
+    std::size_t components = 0;  ///< The number of parts that are connected over edges.
     std::size_t boundary_edges = 0;
-    std::size_t boundaries = 0;             ///< Closed loops of boundary edges.
+    std::size_t boundaries = 0;             ///< The number of closed loops of boundary edges.
     std::int64_t euler_characteristic = 0;  ///< points − edges + triangles.
     double area = 0;
     Vector3d low, high;  ///< The bounding box.

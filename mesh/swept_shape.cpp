@@ -17,8 +17,8 @@ namespace cascade {
 
 namespace {
 
-constexpr double step = 1e-5;       ///< Step of differences in t and s.
-constexpr double pole_step = 1e-4;  ///< Distance from a pole where normals are measured.
+constexpr double step = 1e-5;       ///< The step in t and s of finite differences.
+constexpr double pole_step = 1e-4;  ///< The distance from a pole at which normals are measured.
 /// Parts smaller than this fraction of the shape count as points.
 constexpr double vanishing_part = 1e-9;
 
@@ -101,8 +101,8 @@ private:
 
     void add_ring(std::uint32_t ring) {
         const double t = t_of(ring);
-        // Checks the position first: if both it and the normal are not finite, the message must
-        // name the position.
+        // Checks the position before the normal, because the message must name the position if both
+        // are not finite.
         for (std::uint32_t j = 0; j < facets_.around; ++j) {
             const Vector3d place = probe_.at(t, s_of(j));
             if (places_.empty()) low_ = high_ = place;
@@ -112,8 +112,8 @@ private:
                      std::max(high_.z, place.z)};
             add(place, {}, shade_at(t, s_of(j)));
         }
-        // An end may be a pole, with one vertex for each sector. Each of these vertices has the
-        // normal of its sector.
+        // An end may be a pole, with one vertex for each sector of the ring. Each of these vertices
+        // has the normal of its sector.
         const bool is_end = ring == 0 || ring == facets_.along;
         const double inside = is_end ? std::clamp(t, pole_step, 1 - pole_step) : t;
         for (std::uint32_t j = 0; j < facets_.around; ++j) {
@@ -136,8 +136,8 @@ private:
         }
     }
 
-    /// Closes an end with a cap. Its ring gets separate vertices, with the normals of its own
-    /// points.
+    /// Closes an end with a cap. The ring of the surface gets the normals at its own points. The
+    /// cap has separate vertices, which get the normals of the cap's triangles.
     void add_cap(std::uint32_t ring) {
         const double t = t_of(ring);
         Vector3d middle;
@@ -145,7 +145,7 @@ private:
             middle = middle + places_[vertex(ring, j)] * (1.0 / facets_.around);
             normals_[vertex(ring, j)] = probe_.normal(t, s_of(j));
         }
-        // Without a normal, so set_normals() takes the triangles' normals.
+        // Adds the centre without a normal, so that set_normals() uses the triangles' normals.
         const std::uint32_t centre = add(middle, {}, shade_at(t, 0));
         const std::uint32_t first = centre + 1;
         for (std::uint32_t j = 0; j < facets_.around; ++j) {
@@ -207,12 +207,12 @@ private:
     SweptFacets facets_;
     const SweptNumber& shade_;
     TriangleMesh mesh_;
-    std::vector<Vector3d> places_, normals_;  ///< Normals of any length.
+    std::vector<Vector3d> places_, normals_;  ///< Normals may have any length.
     Vector3d low_, high_;
     std::array<bool, 2> is_pole_{};  ///< Whether the first and the last ring are poles.
 };
 
-constexpr std::uint32_t lines = 24;  ///< Lines along which facets are tested.
+constexpr std::uint32_t lines = 24;  ///< The number of lines along which facets are tested.
 constexpr std::array<double, 3> between = {0.25, 0.5, 0.75};
 
 /// The distance of a point from the line through a and b.
@@ -220,8 +220,8 @@ double distance_from_line(Vector3d p, Vector3d a, Vector3d b) {
     return length(p - (a + (b - a) * nearest_fraction(a, b, p)));
 }
 
-/// Whether polygons of `count` edges along the lines `place(line, part)` are within the tolerance
-/// of `detail`. `part` goes from 0 to 1.
+/// Whether polygons with `count` edges approximate the lines `place(line, part)`, 0 ≤ part ≤ 1,
+/// within the tolerance of `detail`.
 template <typename Place>
 bool keeps_to(const SweptDetail& detail, std::uint32_t count, const Place& place) {
     for (std::uint32_t line = 0; line < lines; ++line) {
@@ -230,7 +230,7 @@ bool keeps_to(const SweptDetail& detail, std::uint32_t count, const Place& place
             const Vector3d after = place(line, (k + 1.0) / count);
             if (length(after - before) > detail.longest_edge) return false;
             for (const double part : between) {
-                // The errors along t and around add up.
+                // The errors along t and around add up, so each may be half of the tolerance.
                 const double error =
                     distance_from_line(place(line, (k + part) / count), before, after);
                 if (error > detail.tolerance / 2) return false;
@@ -273,7 +273,7 @@ SweptSurface surface_of(Tube tube) {
         double t = -1;
         Vector3d middle, across, beside;
     };
-    // Remembers the last ring, because successive points often have the same t.
+    // Stores the last ring, because successive points often have the same t.
     return [tube = std::move(tube), ring = Ring()](double t, double s) mutable {
         if (ring.t != t) {
             Vector3d along = unit(derivative(tube.middle, t));

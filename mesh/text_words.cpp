@@ -29,8 +29,8 @@ std::optional<double> number_in(std::string_view word) {
     }
     if (fault == std::errc()) return value;
     // from_decimal() does not say whether the number is too large or too small. The sign of the
-    // exponent shows which. Without an exponent, the number is too large if it has digits before
-    // the point.
+    // exponent shows this. Without an exponent, the number is too large if it has digits before the
+    // point.
     const bool is_negative = word.starts_with('-');
     if (is_negative) word.remove_prefix(1);
     const std::size_t exponent = word.find_first_of("eE");

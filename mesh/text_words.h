@@ -15,7 +15,7 @@ namespace cascade {
 std::vector<std::string_view> words_of(std::string_view line);
 
 /// A number with an optional sign, fraction and exponent, or "nan" or "inf". Numbers out of range
-/// become 0 or infinity. Empty for any other word.
+/// become 0 or infinity. nullopt for any other word.
 std::optional<double> number_in(std::string_view word);
 
 /// An integer that fits its type, with an optional sign.

@@ -16,9 +16,10 @@ inline Vector3 single(const Vector3d& a) {
 
 struct TriangleMesh {
     std::vector<Vector3> positions;
-    std::vector<Vector3> normals;                         ///< One per position, of length 1.
-    std::vector<std::array<std::uint32_t, 3>> triangles;  ///< Counterclockwise from outside.
-    /// The fraction of the colour's light, 0 … 1, that the surface reflects at each position. If
+    std::vector<Vector3> normals;  ///< One per position, of length 1.
+    /// Counterclockwise when seen from outside.
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    /// The fraction of the colour's light, 0 … 1, that each position of the surface reflects. If
     /// empty, all light is reflected everywhere.
     std::vector<float> shades;
 };

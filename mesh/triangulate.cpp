@@ -9,7 +9,7 @@ namespace cascade {
 
 namespace {
 
-constexpr double most_work = 4e9;  ///< Number of tests of a corner against an ear.
+constexpr double most_work = 4e9;  ///< The largest number of tests whether a corner lies in an ear.
 
 using Triangle = std::array<std::uint32_t, 3>;
 
@@ -18,7 +18,8 @@ double turn(Vector2d a, Vector2d b, Vector2d c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// The polygon's normal, with twice its area as length: the sum over a fan of triangles.
+/// A normal of the polygon, whose length is twice the polygon's area: the sum over a fan of
+/// triangles.
 Vector3d normal_of(std::span<const Vector3d> corners) {
     Vector3d sum;
     for (std::size_t k = 1; k + 1 < corners.size(); ++k) {
@@ -59,7 +60,7 @@ void cut_quadrilateral(std::span<const Vector3d> c, std::vector<Triangle>& trian
     }
 }
 
-/// The remaining corners of a polygon while ears are cut off, as a ring.
+/// The corners of a polygon that remain while ears are cut off, as a ring.
 class Ring {
 public:
     explicit Ring(std::vector<Vector2d> corners) : corners_(std::move(corners)) {
@@ -77,8 +78,8 @@ public:
     std::uint32_t next(std::uint32_t k) const { return next_[k]; }
     Triangle ear(std::uint32_t k) const { return {previous_[k], k, next_[k]}; }
 
-    /// Whether corner k is convex and no other corner is inside its ear. It is enough to test
-    /// reflex corners.
+    /// Whether corner k is convex and no other corner is inside its ear. Only reflex corners need
+    /// to be tested.
     bool is_ear(std::uint32_t k) const {
         if (!is_convex(k)) return false;
         const auto [a, b, c] = ear(k);
@@ -131,7 +132,8 @@ bool triangulate(std::span<const Vector3d> corners, std::vector<Triangle>& trian
             at = ring.next(at);
             ++tried;
         }
-        triangles.push_back(ring.ear(at));  // Takes any corner if the polygon intersects itself.
+        // If the polygon intersects itself, this may be any corner.
+        triangles.push_back(ring.ear(at));
         const std::uint32_t following = ring.next(at);
         ring.cut(at);
         at = ring.next(following);  // Skipping a corner avoids fans in round polygons.

@@ -16,7 +16,7 @@ Animal zebra() {
         // Neck.
         {{{0, 1.10, 0.46, 0.26}, {0, 1.30, 0.70, 0.185}, {0, 1.50, 0.88, 0.150}},
          wide, Sides::one, {0.75, 1, 1}},
-        // Head: forehead, nose, muzzle; cheek.
+        // Head (forehead, nose, muzzle) and cheeks.
         {{{0, 1.60, 0.92, 0.125}, {0, 1.55, 1.04, 0.120}, {0, 1.42, 1.22, 0.090},
           {0, 1.32, 1.35, 0.076}}, soft, Sides::one, {0.85, 1, 1}},
         {{{0.03, 1.50, 0.98, 0.105}, {0.025, 1.36, 1.18, 0.06}}, soft, Sides::both},
@@ -28,13 +28,13 @@ Animal zebra() {
         // Mane.
         {{{0, 1.36, 0.38, 0.05}, {0, 1.50, 0.58, 0.10}, {0, 1.67, 0.76, 0.11},
           {0, 1.74, 0.87, 0.070}}, firm, Sides::one, {0.42, 1, 1}},
-        // Front legs: shoulder, elbow, knee, cannon, fetlock; hoof.
+        // Front legs (shoulder, elbow, knee, cannon, fetlock) and hooves.
         {{{0.12, 1.00, 0.44, 0.200}, {0.145, 0.76, 0.42, 0.125}, {0.140, 0.55, 0.43, 0.080},
           {0.138, 0.41, 0.44, 0.070}, {0.138, 0.24, 0.43, 0.050}, {0.138, 0.13, 0.43, 0.056}},
          wide, Sides::both},
         {{{0.138, 0.09, 0.45, 0.052}, {0.138, 0.040, 0.47, 0.066}}, firm, Sides::both,
           {1, 0.75, 1}},
-        // Hind legs: thigh, stifle, hock, cannon, fetlock; hoof.
+        // Hind legs (thigh, stifle, hock, cannon, fetlock) and hooves.
         {{{0.11, 1.02, -0.54, 0.240}, {0.150, 0.78, -0.50, 0.165}, {0.142, 0.58, -0.60, 0.095},
           {0.138, 0.45, -0.70, 0.072}, {0.138, 0.26, -0.67, 0.053}, {0.138, 0.14, -0.65, 0.057}},
          wide, Sides::both},

@@ -12,7 +12,7 @@ const place = (selector, along = 0.5) => browser.evaluate(
     `(({ x, y, width, height }) => [x + ${along} * width, y + height / 2])(document.querySelector("${selector}").getBoundingClientRect())`);
 
 let taken = 0, next_at = 0;
-/// One picture more, not before it is time.
+/// Waits until the next picture is due, and takes it.
 async function take() {
     await new Promise((resolve) => setTimeout(resolve, Math.max(0, next_at - performance.now())));
     next_at = Math.max(next_at, performance.now() - milliseconds_of_picture) + milliseconds_of_picture;
@@ -26,7 +26,8 @@ async function point(x, y, type = "mouseMoved", is_down = type === "mousePressed
     await browser.evaluate(`Object.assign(window.hand.style, { left: "${x}px", top: "${y}px" })`);
     await browser.call("Input.dispatchMouseEvent", { type, x, y, button: type === "mouseMoved" && !is_down ? "none" : "left", buttons: is_down ? 1 : 0, clickCount: 1 });
 }
-/// Moves the hand within some pictures; `bend` of the way aside.
+/// Moves the hand to a position within `pictures` pictures. Its way is an arc of the height `bend`
+/// in pixels.
 async function move([x, y], pictures, is_down = false, bend = 0) {
     const [from_x, from_y] = [hand_x, hand_y];
     for (let k = 1; k <= 4 * pictures; ++k) {

@@ -1,12 +1,13 @@
-// node page/library.mjs [--check]: writes page/src/library.json, what the library of the page shows beside the systems
-// that the engine names: small pictures of them, and the examples with theirs. Run it after a change of a picture or of
-// an example. Needs cwebp (Debian: webp). With --check it fails if the file has other examples or lacks a picture.
+// node page/library.mjs [--check]: writes page/src/library.json, which the library of the page
+// shows beside the systems that the engine names: small pictures of these systems, and the examples
+// with their pictures. Run it after a change of a picture or of an example. Needs cwebp (Debian:
+// webp). With --check it fails if the file has other examples or lacks a picture.
 import { execFileSync } from "node:child_process";
 import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 
 const project = join(import.meta.dirname, ".."), file = join(import.meta.dirname, "src/library.json");
-const side = 72, quality = 10;  // The longer side in pixels; of all pictures together in kB: 140.
+const side = 72, quality = 10;  // The longer side in pixels. All pictures together take 140 kB.
 
 const names = (folder) => readdirSync(join(project, folder)).filter((name) => name.endsWith(".cascade"))
     .map((name) => name.replace(".cascade", "")).sort();
@@ -17,11 +18,11 @@ function shrink(name) {
     return execFileSync("cwebp", ["-quiet", "-m", "6", "-q", String(quality), "-resize", ...(is_wide ? [side, 0] : [0, side]).map(String), path, "-o", "-"]).toString("base64");
 }
 
-/// The title of an example and a line about it: the first two parts of its opening comment. After "A cascade of our own"
-/// its name is the title.
+/// The title of an example and a line about it: the first two parts of its opening comment. If this
+/// comment begins with "A cascade", the title is the example's name.
 function describe(name, script) {
     const comment = script.match(/^(#.*\n)+/)[0].replace(/^# ?/gm, "").replaceAll("\n", " ").trim();
-    const end_of_sentence = /(?<=[^A-Z])\.(?: |$)/;  // Not that of an initial.
+    const end_of_sentence = /(?<=[^A-Z])\.(?: |$)/;  // The full stop of an initial ends no sentence.
     const [title] = comment.split(/: | - /)[0].split(end_of_sentence);
     const [about] = comment.slice(title.length).replace(/^(: | - |\. ?)/, "").split(end_of_sentence);
     const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);

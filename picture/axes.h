@@ -9,7 +9,7 @@
 
 namespace cascade {
 
-/// The values at the two ends of an axis. If low > high, the axis runs downwards or to the left.
+/// The values at the two ends of an axis. If low > high, values increase downwards or to the left.
 struct AxisRange {
     double low = 0, high = 1;
     std::string name;
@@ -40,7 +40,7 @@ public:
 
     /// Adds the box, its ticks and numbers, and the names of the axes to a drawing.
     void draw(Drawing& drawing) const;
-    /// Adds a curve to a drawing. Leaves out the parts above and below the box.
+    /// Adds a curve to a drawing. Leaves out the parts above, below and to the right of the box.
     void draw_curve(Drawing& drawing, const std::vector<double>& across,
                     const std::vector<double>& up, DrawnLine style) const;
 

@@ -10,9 +10,10 @@
 namespace cascade {
 namespace {
 
-constexpr std::int64_t pixels_per_dot = 240;  // Pixels of the picture's width for each dot.
+// The width of the picture, in pixels, for each dot of the font.
+constexpr std::int64_t pixels_per_dot = 240;
 constexpr std::int64_t largest_dot = 8;
-constexpr std::int64_t padding = 3;  // Dots around the text.
+constexpr std::int64_t padding = 3;  // The number of dots around the text.
 constexpr std::int64_t least_characters = 4;
 
 std::int64_t dot_of(std::int64_t width) {

@@ -13,8 +13,8 @@ namespace cascade {
 bool has_room_for_caption(std::int64_t width, std::int64_t height);
 
 /// Draws a line of text in the lower left corner, on a light plate so that it is legible on any
-/// pattern. If the text is wider than the picture, it is cut off and ends in "…".
-/// has_room_for_caption() must be true.
+/// pattern. Text that is wider than the picture is cut off and ends in "…". has_room_for_caption()
+/// must be true.
 void draw_caption(Image& image, std::string_view text);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Compresses in the zlib format, which PNG files and pages use.
+// Compresses data in the zlib format, which PNG files and pages use.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,5 @@
-// Drawings of lines, areas and texts, for diagrams. They become SVG, PDF, or an image of pixels.
+// Drawings of lines, areas and texts, for diagrams. A drawing becomes an SVG file, a PDF file or an
+// image.
 #pragma once
 
 #include "core/palette.h"
@@ -13,12 +14,12 @@
 
 namespace cascade {
 
-/// A position in a drawing: its distance from the left and from the top. 14 units are the height of
-/// a line of text.
+/// A position in a drawing: its distance from the left and its distance from the top. A line of
+/// text is 14 units high.
 using DrawnPoint = std::array<double, 2>;
 
 struct DrawnLine {
-    std::vector<DrawnPoint> points;  ///< In the order in which they are connected.
+    std::vector<DrawnPoint> points;  ///< The corners, in the order in which they are connected.
     Colour colour{0, 0, 0};
     double width = 1;
     bool dashed = false;
@@ -39,8 +40,8 @@ struct DrawnDisc {
 /// A line of text in the same colour as the text of contact sheets.
 struct DrawnText {
     enum class Anchor { start, middle, end };
-    /// The position of the start, middle or end of the text, as `anchor` says, at half the height
-    /// of the line.
+    /// The position of the start, middle or end of the text (see `anchor`), at half the height of
+    /// the line.
     DrawnPoint place{};
     std::string text;
     Anchor anchor = Anchor::start;
@@ -53,7 +54,7 @@ struct DrawnImage {
     Image image;
 };
 
-/// Lines, areas, texts and images. Later ones cover earlier ones.
+/// Lines, areas, texts and images. Each covers the earlier ones.
 struct Drawing {
     double width = 0, height = 0;
     std::vector<std::variant<DrawnLine, DrawnArea, DrawnDisc, DrawnText, DrawnImage>> shapes;
@@ -76,7 +77,7 @@ Result<std::string> as_pdf(const Drawing& drawing);
 Image as_image(const Drawing& drawing, int scale);
 
 /// Writes a file in the format of its ending: .svg, .pdf, or .png with two pixels for each unit.
-/// Fails for other endings, and like the functions above and write_file().
+/// Fails for other endings, and whenever as_svg(), as_pdf() or write_file() would fail.
 Result<void> write_drawing(const std::filesystem::path& path, const Drawing& drawing);
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
-// Draws a drawing as pixels. Edges of lines and discs are smoothed: each pixel gets the colour in
-// proportion to the part that is covered.
+// Draws a drawing as pixels. Edges of lines and discs are smoothed: the colour covers each pixel in
+// proportion to the covered part of the pixel.
 #include "picture/drawing.h"
 #include "picture/lettering.h"
 

@@ -26,9 +26,10 @@ struct Run {
     std::string bytes;
 };
 
-/// The code of a Greek letter in the font Symbol. 0 if there is none.
+/// The code of a Greek letter in the font Symbol; 0 if the font lacks the letter.
 char in_symbol(char32_t letter) {
-    // In the order of Unicode, from α and Α. A blank marks a missing letter or glyph.
+    // The letters of Symbol in the order of Unicode, from α and Α. A blank marks a letter without a
+    // code or without a glyph.
     constexpr std::string_view small = "abgdezhqiklmnxoprVstufcyw",
                                large = "ABGDEZHQIKLMNXOPR STUFCYW";
     if (letter >= U'α' && letter < U'α' + small.size()) return small[letter - U'α'];
@@ -39,8 +40,8 @@ char in_symbol(char32_t letter) {
     return '\0';
 }
 
-/// Divides a text into runs, in the encodings of the fonts: WinAnsiEncoding, which is Latin-1
-/// except for some signs, and Symbol's own.
+/// Divides a text into runs and encodes each run for its font. The encodings are WinAnsiEncoding,
+/// which is Latin-1 except for some signs, and the own encoding of Symbol.
 std::vector<Run> runs_of(std::string_view text) {
     std::vector<Run> runs;
     const auto add = [&](bool is_greek, char byte) {
@@ -153,8 +154,8 @@ private:
         HPDF_Page_EndText(page_);
     }
 
-    /// Draws an image on white, like the page. It is not interpolated, which is the format's
-    /// default.
+    /// Draws an image on white, the colour of the page. Readers do not interpolate the image, by
+    /// the format's default.
     void add(const DrawnImage& drawn) {
         const Image& image = drawn.image;
         std::vector<HPDF_BYTE> levels;

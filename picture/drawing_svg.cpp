@@ -14,9 +14,9 @@ namespace cascade {
 
 namespace {
 
-/// Enlarges an image until its pixels are at most half a unit wide, or as far as 2048 × 2048 pixels
-/// allow. Programs that smooth images, such as librsvg, then blur only the edges of the squares
-/// that replace the original pixels.
+/// Enlarges an image until its pixels are at most half a unit wide, but to at most 2²² pixels.
+/// Programs that smooth images, such as librsvg, then blur only the edges of the squares that
+/// replace the original pixels.
 Image in_small_pixels(const DrawnImage& drawn) {
     constexpr double per_unit = 2;
     constexpr std::int64_t most_pixels = std::int64_t{1} << 22;

@@ -1,4 +1,4 @@
-// Uses the C interface of OpenEXR, which is loaded for the first file.
+// Uses the C interface of OpenEXR, which is loaded when the first file is written.
 #include "picture/exr.h"
 
 #include "core/check.h"
@@ -14,7 +14,7 @@ namespace cascade {
 
 namespace {
 
-/// OpenEXR's functions. Their names lack the prefix `exr_`.
+/// Pointers to OpenEXR's functions. Their names lack the prefix `exr_`.
 struct OpenExr {
     LateLibrary library{CASCADE_OPENEXR_LIBRARY};
     decltype(&exr_start_write) start_write = library["exr_start_write"];
@@ -115,7 +115,8 @@ private:
                                    : exr_.begin_block(context_, 0, &block, &blocks_));
     }
 
-    /// Fills in a channel. The library has sorted channels by name.
+    /// Fills in a channel. The channel is found by its name, because the library has sorted
+    /// channels.
     void fill(exr_coding_channel_info_t& into, std::int64_t row) const {
         const auto channel =
             std::find_if(channels_.begin(), channels_.end(),

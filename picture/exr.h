@@ -13,10 +13,11 @@ namespace cascade {
 
 /// A channel of a picture. It has one number for each pixel.
 struct ExrChannel {
-    std::string name;              ///< "R", "G", "B" or "A"; "Y" if a picture has only one number.
+    /// "R", "G", "B" or "A". "Y" if a picture has only one number per pixel.
+    std::string name;
     const float* first = nullptr;  ///< The number of the upper left pixel.
-    /// The number of elements in memory from one pixel to the next, also from the last pixel of a
-    /// row to the first of the next row.
+    /// The number of elements in memory from one pixel to the next. The last pixel of a row is just
+    /// as far from the first pixel of the next row.
     std::size_t step = 1;
     bool is_half = true;  ///< Whether numbers are stored with 16 bits instead of 32.
 };

@@ -1,4 +1,4 @@
-// Appends row by row, without padding and halo.
+// Appends rows one by one, without padding and halo.
 #include "picture/float_bytes.h"
 
 #include <cstdint>

@@ -23,11 +23,11 @@ using Glyph = std::array<std::uint8_t, glyph_height>;
 /// character is shown as a box.
 const Glyph& glyph_of(char32_t character);
 
-/// The number of rows by which the glyph is lowered. Only letters with a descender are lowered.
+/// The number of rows by which the glyph is moved down. Only letters with a descender are moved.
 int glyph_drop(char32_t character);
 
-/// The characters of a UTF-8 label. Characters without a glyph are replaced by U+FFFD. Invalid
-/// bytes are dropped.
+/// The characters of a UTF-8 label. U+FFFD replaces characters without a glyph. Invalid bytes are
+/// dropped.
 std::u32string label_characters(std::string_view label);
 
 }  // namespace cascade

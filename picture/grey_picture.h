@@ -26,9 +26,9 @@ inline constexpr std::int64_t most_pixels = std::int64_t{1} << 26;
 /// bits, and be interlaced. The stored numbers are used as they are, without applying the file's
 /// gamma. The lightness of a colour is 0.2126 red + 0.7152 green + 0.0722 blue (the luma of ITU-R
 /// BT.709), with transparent pixels blended with white. The other channels are read as they are
-/// stored: a grey picture has its grey in all three colours, and alpha is 1 if the file has none.
-/// Fails if the data is not a PNG file, is incomplete or damaged, or has too many pixels. The
-/// message is a clause that continues "cannot read 'FILE': ".
+/// stored. A grey picture has its grey in all three colours, and alpha is 1 if the file has no
+/// alpha. Fails if the data is not a PNG file, is incomplete or damaged, or has too many pixels.
+/// The message is a clause that continues "cannot read 'FILE': ".
 Result<GreyPicture> parse_grey_picture(std::string_view bytes,
                                        PictureChannel channel = PictureChannel::lightness);
 
@@ -38,8 +38,9 @@ inline constexpr std::uint64_t largest_picture_file = std::uint64_t{1} << 30;
 /// Reads a PNG file. See parse_grey_picture().
 Result<GreyPicture> read_grey_picture(const std::filesystem::path& path);
 
-/// Resamples a picture along each axis separately. A smaller picture has the mean over the area of
-/// each new pixel. A larger picture is interpolated linearly between the centres of pixels.
+/// Resamples a picture along each axis separately. Along an axis with fewer pixels than before, a
+/// new pixel has the mean over its length. Along an axis with more pixels, values are interpolated
+/// linearly between the centres of pixels.
 GreyPicture resized(const GreyPicture& picture, std::int64_t width, std::int64_t height);
 
 /// Converts a picture to a field. The picture must have as many columns and rows as the grid. Every

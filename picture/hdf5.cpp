@@ -17,7 +17,8 @@ constexpr const char* without_hdf5 = "use --series NAME.npy, which needs no HDF5
 
 Result<Hdf5Opener*> load_opener() {
 #ifdef CASCADE_HDF5_MODULE
-    // The module is never unloaded, because the library closes its files when the program ends.
+    // The module is never unloaded, because the HDF5 library closes its files when the program
+    // ends.
     void* const module = ::dlopen(CASCADE_HDF5_MODULE, RTLD_LAZY | RTLD_LOCAL);
     if (!module) {
         const char* reason = ::dlerror();

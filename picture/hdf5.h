@@ -22,7 +22,7 @@ using Hdf5Attribute = std::variant<double, std::int64_t, std::string, std::vecto
 /// Attributes by name. A value that is a text must be shorter than 64 kB.
 using Hdf5Attributes = std::map<std::string, Hdf5Attribute>;
 
-/// Numbers along an axis of the cells.
+/// Numbers along one of the axes of the cells.
 struct Hdf5Column {
     std::string name;
     std::string long_name;
@@ -49,14 +49,15 @@ struct Hdf5Layout {
     std::vector<Hdf5Column> axes;
     /// Further numbers along the last axis, such as the positions of a model's cells.
     std::vector<Hdf5Column> coordinates;
-    /// The fields: names of datasets, with their attributes.
+    /// The names of the fields' datasets, each with its attributes.
     std::vector<std::pair<std::string, Hdf5Attributes>> fields;
     Precision precision = Precision::single;
     /// The names of the stages, by number, with the attributes of their groups. If there are none,
     /// the file has no groups.
     std::vector<std::pair<std::string, Hdf5Attributes>> stages;
-    Hdf5Attributes about;                      ///< The attributes of the file.
-    std::map<std::string, std::string> texts;  ///< Datasets of one text each, of any length.
+    Hdf5Attributes about;  ///< The attributes of the file.
+    /// Datasets that hold one text each. Texts may have any length.
+    std::map<std::string, std::string> texts;
 };
 
 /// An open file. After each call it can be read, even if the process is killed. If a call fails,
@@ -80,15 +81,15 @@ public:
     virtual Result<void> close() = 0;
 };
 
-/// The name of the module's only symbol, which takes the version of its caller and returns the
-/// function that makes files, or null if the module has another version.
+/// The name of the module's only symbol. The symbol is a function that takes the version of its
+/// caller. It returns the function that makes files, or null if the module has another version.
 inline constexpr const char* hdf5_opener_symbol = "cascade_hdf5_opener";
 using Hdf5Opener = Result<std::unique_ptr<Hdf5File>>(const std::filesystem::path& path,
                                                      const Hdf5Layout& layout);
 using Hdf5OpenerEntry = Hdf5Opener*(std::string_view version);
 
 /// Loads the module. Fails if this build has no module or if the HDF5 library is missing. The error
-/// is about the output file `path`, and says what to install.
+/// message is about the output file `path`, and says what to install.
 Result<void> check_hdf5(const std::filesystem::path& path);
 
 /// Begins a file without entries, replacing a file of this name. Fails like check_hdf5(), and if

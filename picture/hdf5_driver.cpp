@@ -1,4 +1,5 @@
-// The driver is a copy of the library's driver for files (sec2) with another function for writing.
+// The driver is a copy of the library's driver for files (sec2), but has another function for
+// writing.
 #include "picture/hdf5_driver.h"
 
 #include <map>
@@ -13,7 +14,7 @@ struct PendingWrite {
     std::vector<char> bytes;
 };
 
-/// The writes of the flush that runs on this thread, by address.
+/// The gathered writes, by address, of the flush that runs on this thread.
 struct GatheredWrites {
     bool is_gathering = false;
     H5FD_t* file = nullptr;
@@ -43,7 +44,7 @@ herr_t write_one(haddr_t address, const PendingWrite& one) {
                                    one.bytes.size(), one.bytes.data());
 }
 
-/// Keeps the library from joining parts that lie side by side.
+/// Keeps the library from joining adjacent parts of the file.
 herr_t features_without_joining(const H5FD_t* file, unsigned long* flags) {
     const herr_t result = files_of_library->query(file, flags);
     if (flags) *flags &= ~static_cast<unsigned long>(H5FD_FEAT_ACCUMULATE_METADATA);

@@ -1,7 +1,8 @@
 // The module that uses HDF5 (picture/hdf5.h).
 //
-// Files have the format that the library writes by default. After a flush such a file opens at
-// once, even if its writer was killed. Files of newer formats first need h5clear.
+// Files have the format that the library writes by default. After a flush such a file can be opened
+// at once, even if its writer was killed. A file in one of the newer formats would first need
+// h5clear.
 #include "core/version.h"
 #include "picture/hdf5.h"
 #include "picture/hdf5_driver.h"
@@ -40,7 +41,7 @@ Number good(Number result) {
     return result;
 }
 
-/// An identifier of the library. The destructor closes it.
+/// An identifier of the library, which the destructor closes.
 class Handle {
 public:
     using Close = herr_t (*)(hid_t);
@@ -68,7 +69,7 @@ Handle space_of(const std::vector<hsize_t>& sizes) {
     return {H5Screate_simple(static_cast<int>(sizes.size()), sizes.data(), nullptr), H5Sclose};
 }
 
-/// The type of texts of any length in UTF-8.
+/// The type of UTF-8 texts of any length.
 Handle text_type() {
     Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
     good(H5Tset_size(type, H5T_VARIABLE));
@@ -186,12 +187,12 @@ private:
     std::vector<Growing> records_, fields_;
     hsize_t entries_ = 0;
     std::set<haddr_t> written_;
-    bool is_whole_ = true;  ///< Whether no call has failed.
+    bool is_whole_ = true;  ///< Whether all calls so far have succeeded.
 };
 
 File::File(const std::filesystem::path& path, const Hdf5Layout& layout) {
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-    // Readers may open the file while it grows, and do not hinder the run.
+    // Readers may open the file while it grows, and do not stop the run from writing.
     good(H5Pset_file_locking(access, false, true));
     good(H5Pset_fclose_degree(access, H5F_CLOSE_STRONG));
     good(H5Pset_driver(access, good(hdf5_driver(path.c_str())), nullptr));
@@ -255,7 +256,7 @@ void File::make_axes(const Hdf5Layout& layout) {
     for (const Hdf5Column& column : layout.coordinates) write_column(column, axes_.back());
 }
 
-/// Writes numbers along an axis. If `axis` is negative, the numbers become an axis themselves.
+/// Writes numbers along an axis. If `axis` is negative, the numbers themselves become an axis.
 void File::write_column(const Hdf5Column& column, hid_t axis) {
     const Handle space = space_of({column.values.size()});
     Handle dataset(H5Dcreate2(file_, column.name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT,
@@ -285,7 +286,7 @@ File::Growing File::make_growing(const std::string& name, Handle type, std::vect
     const Handle creation = dataset_properties();
     good(H5Pset_chunk(creation, static_cast<int>(chunk.size()), chunk.data()));
     if (fill) good(H5Pset_fill_value(creation, type, fill));
-    // Without a cache, numbers are written, and get their addresses, before the next flush.
+    // Without a cache, the library writes numbers, and gives them addresses, before the next flush.
     const Handle use(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
     good(H5Pset_chunk_cache(use, 0, 0, 1));
     Growing growing{{H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, creation, use),
@@ -349,7 +350,7 @@ Result<void> File::close() {
     return attempt([&] { flush(); });
 }
 
-/// Closes the file. Writes after a failure would not be in order, so they are dropped.
+/// Closes the file. Drops writes after a failure, because they would not be in order.
 File::~File() {
     const DroppedWrites dropped(!is_whole_);
     fields_.clear();

@@ -53,8 +53,8 @@ struct Image {
         if (is_transparent(at(x, y))) return 0;
         return alpha.empty() ? 1 : alpha[static_cast<std::size_t>(y * width + x)];
     }
-    /// The colour of a pixel over the colour `ground`. Colours are blended in sRGB, as other
-    /// programs do.
+    /// The colour of a pixel in front of the colour `ground`. Colours are blended in sRGB, as in
+    /// other programs.
     Colour over(const Colour& ground, std::int64_t x, std::int64_t y) const {
         const float part = opacity(x, y);
         if (part == 1) return at(x, y);
@@ -76,7 +76,8 @@ struct ValueRange {
 Spread spread_of(const Field& field);
 
 /// The default range for drawing values: the smallest and the largest. If the values differ only by
-/// rounding errors, low = high, so that these are not amplified. [0, 0] if there are no values.
+/// rounding errors, low = high, so that rounding errors are not amplified. [0, 0] if there are no
+/// values.
 ValueRange automatic_range(const Spread& values);
 
 /// The position of a value in a range: from 0 at `low` to 1 at `high`, and ½ if low = high. NaN
@@ -88,7 +89,7 @@ double position_in(ValueRange range, float value);
 /// palette is reversed. The image may reuse the memory of `earlier`.
 Image paint(const Field& field, ValueRange range, const Palette& palette, Image earlier = {});
 
-/// Computes the colour of each value with a palette.
+/// Computes the colour of each value by a palette.
 void paint(std::span<const float> values, ValueRange range, const Palette& palette,
            std::span<Colour> colours);
 
@@ -114,7 +115,7 @@ void clear_where_nan(Image& image, const Field& field);
 /// Replaces every pixel with a square of `factor` × `factor` pixels. `factor` is at least 1.
 Image enlarge(Image image, int factor);
 
-/// Makes an image of `down` rows, each with `across` copies of `image`. Both must be at least 1.
+/// Makes an image with `down` rows of `across` copies of `image`. Both numbers must be at least 1.
 Image repeated(const Image& image, int across, int down);
 
 enum class PngDepth { eight = 8, sixteen = 16 };
@@ -123,15 +124,15 @@ enum class PngDepth { eight = 8, sixteen = 16 };
 /// characters, without leading, trailing or double blanks. Texts are UTF-8 (iTXt).
 using PngTexts = std::map<std::string, std::string>;
 
-/// The most bytes of all texts of a picture together, both for writing and for reading.
+/// The largest total size of a picture's texts in bytes, for writing and for reading.
 inline constexpr std::size_t longest_png_text = std::size_t{16} << 20;
 
-/// The meaning of the numbers in a PNG file. They are either colours in sRGB, which the file then
-/// declares, or the numbers of a map, to which readers must not apply colour correction.
+/// The meaning of the numbers in a PNG file. The numbers are either colours in sRGB, which the file
+/// then declares, or the numbers of a map, to which readers must not apply colour correction.
 enum class PngMeaning { colours, numbers };
 
-/// The effort that is spent on compression. `fast` takes a third of the time of `small`, and the
-/// files of patterns become a tenth larger.
+/// The effort that is spent on compression. `fast` takes a third of the time of `small`, but makes
+/// the files of patterns a tenth larger.
 enum class PngEffort { small, fast };
 
 /// Encodes a PNG file in memory, in the format that write_png() describes. Fails if a side is 0 or
@@ -147,9 +148,9 @@ Result<std::string> encode_png(const Painting& painting, PngDepth depth, const P
                                PngEffort effort = PngEffort::small);
 
 /// Writes a PNG file atomically. If all pixels are grey, it is a greyscale file. It has an alpha
-/// channel only if `image.alpha` is not empty or some pixels are `transparent`. These become white
-/// with alpha 0. Colours are rounded to 256 or 65536 values. Long texts are compressed. Fails like
-/// encode_png() and write_file().
+/// channel only if `image.alpha` is not empty or some pixels are `transparent`. Pixels that are
+/// `transparent` become white with alpha 0. Colours are rounded to 256 or 65536 values. Long texts
+/// are compressed. Fails like encode_png() and write_file().
 Result<void> write_png(const std::filesystem::path& path, const Image& image, PngDepth depth,
                        const PngTexts& texts);
 
@@ -162,7 +163,7 @@ Result<PngTexts> parse_png_texts(std::string_view bytes);
 /// Reads the text chunks of a PNG file.
 Result<PngTexts> read_png_texts(const std::filesystem::path& path);
 
-/// A picture of a contact sheet with its label.
+/// A picture of a contact sheet, and its label.
 struct Panel {
     std::string label;
     Image image;
@@ -170,20 +171,20 @@ struct Panel {
 
 /// Draws a contact sheet with `columns` panels in each row. Labels are in a small built-in font
 /// (ASCII only, other characters become boxes). A label that is too long is cut off and ends in
-/// "…". Behind transparent pixels the sheet is visible. All pictures are enlarged by the same
+/// "…". The sheet is visible through transparent pixels. All pictures are enlarged by the same
 /// integer, so that small pictures are legible. A picture with only a few rows is stretched to a
 /// band.
 Image make_sheet(std::span<const Panel> panels, int columns);
 
 /// Draws an image for a terminal with half-block characters and 24-bit colour. The result is at
-/// most `columns` wide. A wider image is reduced in proportion by averaging, and a smaller one is
-/// not enlarged. Pixels that are less than half opaque show the terminal's background. Each line
+/// most `columns` wide. A wider image is reduced in proportion by averaging, and a narrower image
+/// is not enlarged. Pixels that are less than half opaque show the terminal's background. Each line
 /// ends with a reset of the colours and a line break.
 std::string half_blocks(const Image& image, int columns);
 
 /// Draws an image with plain characters from dark to light, " .:-=+*#%@", for pipes and for
-/// terminals without colours. Each character shows two pixels, one above the other. The character
-/// is a space if the pixels are less than half opaque.
+/// terminals without colours. Each character shows two pixels, one above the other. It is a space
+/// if the pixels are less than half opaque.
 std::string plain_characters(const Image& image, int columns);
 
 }  // namespace cascade

@@ -1,4 +1,5 @@
-// Glyphs are bitmaps that are drawn in whole dots. Text that is too long ends in an ellipsis.
+// Glyphs are bitmaps, whose dots are drawn as squares of whole pixels. Text that is too long ends
+// in an ellipsis.
 #include "picture/lettering.h"
 
 #include "picture/font.h"
@@ -62,7 +63,7 @@ void draw_framed(Image& image, const Image& picture, std::int64_t x, std::int64_
     const std::int64_t width = picture.width * factor;
     fill_rectangle(image, x - 1, y - 1, width + 2, height + 2, sheet_frame);
     for (std::int64_t j = 0; j < height; ++j) {
-        // Enlarges rows, or stretches a picture with few rows to a band.
+        // Enlarges rows by `factor`, or stretches a picture with few rows to a band.
         const std::int64_t row = j * picture.height / height;
         for (std::int64_t i = 0; i < width; ++i) {
             image.at(x + i, y + j) = picture.over(sheet_ground, i / factor, row);

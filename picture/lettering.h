@@ -34,9 +34,9 @@ std::int64_t text_height(std::int64_t dot);
 void draw_text(Image& image, std::string_view text, std::int64_t x, std::int64_t y,
                std::int64_t room, std::int64_t dot);
 
-/// Draws a picture, enlarged by `factor`, in a frame of one pixel. `height` is the height of the
-/// drawn picture. For a picture with few rows it may exceed the enlarged height, and the picture is
-/// stretched to a band of this height.
+/// Draws a picture, enlarged by `factor`, in a frame of one pixel. The drawn picture is `height`
+/// pixels high. If this is more than `factor` times its rows, the picture is stretched to a band of
+/// this height.
 void draw_framed(Image& image, const Image& picture, std::int64_t x, std::int64_t y,
                  std::int64_t factor, std::int64_t height);
 

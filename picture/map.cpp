@@ -11,8 +11,9 @@ namespace cascade {
 
 namespace {
 
-constexpr std::int64_t comfortable_tile = 128;  // Smaller pictures than half of this are enlarged.
-constexpr std::int64_t gap = 6;                 // Between tiles, and between tiles and labels.
+constexpr std::int64_t comfortable_tile = 128;  // Pictures smaller than half of this are enlarged.
+// Pixels between tiles, and between tiles and labels.
+constexpr std::int64_t gap = 6;
 constexpr Colour empty_place{0.90F, 0.893F, 0.875F};
 
 /// Positions and sizes in pixels.

@@ -1,5 +1,5 @@
-// A map shows a small picture for each pair of values of two parameters, with the values along its
-// axes.
+// A map shows a small picture for each pair of values of two parameters. The values are written
+// along the axes.
 #pragma once
 
 #include "picture/image.h"
@@ -16,7 +16,7 @@ struct MapAxis {
     std::vector<std::string> values;
 };
 
-/// One of the small pictures in a map. If it has no image, the remark is drawn instead.
+/// One of the small pictures in a map. If there is no image, the remark is drawn in its place.
 struct MapTile {
     Image image;
     std::string remark;

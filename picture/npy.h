@@ -1,6 +1,6 @@
-// Reads and writes NumPy's .npy files with a single array. Writes little-endian floats in a field's
-// precision. Reads floats, integers and booleans in both byte orders. The format is defined in
-// NumPy Enhancement Proposal 1.
+// Reads and writes NumPy's .npy files, each with a single array. Writes little-endian floats in a
+// field's precision. Reads floats, integers and booleans in both byte orders. The format is defined
+// in NumPy Enhancement Proposal 1.
 #pragma once
 
 #include "core/plane.h"
@@ -38,10 +38,10 @@ inline constexpr std::uint64_t largest_npy_file =
 Result<NpyArray> read_npy(const std::filesystem::path& path,
                           Precision precision = Precision::single);
 
-/// The header of a .npy file of version 1.0, as NumPy writes it. The elements follow in C order.
-/// `type` is a type in NumPy's notation, such as "<f4". `shape` is the inside of a Python tuple,
-/// such as "2, 3" or "2,". `spare` characters are reserved, so that a longer shape may be written
-/// later.
+/// The header of a .npy file of version 1.0, as NumPy writes it. The elements must follow in C
+/// order. `type` is a type in NumPy's notation, such as "<f4". `shape` is the inside of a Python
+/// tuple, such as "2, 3" or "2,". The header has `spare` more characters than needed, so that a
+/// longer shape may be written over it later.
 std::string npy_head(std::string_view type, std::string_view shape, std::size_t spare = 0);
 
 /// Encodes a field as a .npy file in memory, version 1.0, with float32 or float64 in little-endian

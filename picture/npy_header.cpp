@@ -13,8 +13,8 @@ namespace {
 constexpr std::string_view magic("\x93NUMPY", 6);
 constexpr std::size_t longest_header = 1 << 16;  // NumPy itself writes about 120 bytes.
 
-/// Parses the dictionary from left to right. If the text does not match, member functions return
-/// false or nullopt, and the position is undefined.
+/// Parses the dictionary from left to right. If the text is not as expected, member functions
+/// return false or nullopt, and the position is undefined.
 class DictionaryReader {
 public:
     explicit DictionaryReader(std::string_view text) : text_(text) {}
@@ -83,7 +83,7 @@ std::optional<std::uint64_t> DictionaryReader::integer() {
         value = value * 10 + amount;
     }
     if (position_ == begin) return std::nullopt;
-    // Python 2 wrote long integers as 64L.
+    // Python 2 wrote long integers with an L, as in 64L.
     if (position_ < text_.size() && text_[position_] == 'L') ++position_;
     return value;
 }
@@ -98,7 +98,8 @@ bool DictionaryReader::type(NpyHeader& header) {
     return skip_list();
 }
 
-/// Skips the list that describes a structured type. Does not check that brackets match in kind.
+/// Skips the list that describes a structured type. Does not check that each bracket is closed by
+/// one of the same kind.
 bool DictionaryReader::skip_list() {
     skip_blanks();
     if (position_ == text_.size() || text_[position_] != '[') return false;

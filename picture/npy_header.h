@@ -16,7 +16,7 @@
 
 namespace cascade {
 
-/// The content of a header. It may describe an array that this program does not support.
+/// The content of a header. The header may describe an array that this program does not support.
 struct NpyHeader {
     /// The text of `descr`, such as "<f4". Empty for a structured type, whose `descr` is not a
     /// string.

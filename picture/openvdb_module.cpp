@@ -17,12 +17,12 @@ namespace cascade {
 
 namespace {
 
-/// Lets OpenVDB write to any stream.
+/// Makes OpenVDB's function for writing to any stream accessible.
 struct Archive : openvdb::io::Archive {
     using openvdb::io::Archive::write;
 };
 
-/// A grid of all cells inside. Adjacent voxels with equal values become tiles.
+/// A grid of all cells inside the domain. Adjacent voxels with equal values become tiles.
 template <typename Number>
 openvdb::GridBase::Ptr grid_of(const Plane<Number>& cells, const VdbVolume& volume) {
     using Grid =
@@ -49,7 +49,8 @@ openvdb::GridBase::Ptr grid_of(const VolumeArray& array, const VdbVolume& volume
     auto grid = array.field->visit([&](const auto& cells) { return grid_of(cells, volume); });
     grid->setName(array.name);
     grid->setGridClass(openvdb::GRID_FOG_VOLUME);
-    // OpenVDB's voxels have their centres at whole numbers, but cells have theirs half-way between.
+    // OpenVDB's voxels have their centres at integers, but cells have their centres half-way
+    // between integers.
     const openvdb::Vec3d side(volume.spacing.data());
     const bool is_cube = side[0] == side[1] && side[0] == side[2];
     const auto place = openvdb::math::Transform::createLinearTransform(is_cube ? side[0] : 1);
@@ -73,7 +74,8 @@ openvdb::MetaMap metadata_of(const VdbVolume& volume) {
 /// Replaces the identifier of a file, which OpenVDB chooses at random, with a hash of the content.
 /// So equal volumes give equal bytes.
 void set_identifier(std::string& file) {
-    constexpr std::size_t begin = 21;  // After the magic number, three versions and a flag.
+    // The identifier follows the magic number, three versions and a flag.
+    constexpr std::size_t begin = 21;
     constexpr std::size_t end = begin + 36;
     const std::string_view content = std::string_view(file).substr(end);
     const std::uint64_t first = fnv1a(content);

@@ -14,7 +14,7 @@
 #include <vector>
 
 namespace cascade {
-/// Computed in double, so that the width of the range cannot overflow.
+/// This is computed in double, so that the width of the range cannot overflow.
 double position_in(ValueRange range, float value) {
     if (std::isnan(value)) return std::numeric_limits<double>::quiet_NaN();
     const double low = static_cast<double>(range.low);
@@ -27,7 +27,8 @@ namespace {
 
 constexpr std::size_t painted_at_once = 256;
 
-/// The positions of values in a palette: the segment between two stops, and the fraction of it.
+/// The position of each value in a palette: the segment between two stops, and the fraction of the
+/// segment before the value.
 struct PalettePlaces {
     std::array<std::int32_t, painted_at_once> segment;
     std::array<double, painted_at_once> part;
@@ -72,7 +73,7 @@ WITH_WIDE_VECTORS void paint_segment(const PaletteSegment& segment, std::span<co
     for (std::size_t k = 0; k < parts.size(); ++k) pixels[k] = here.at(parts[k]);
 }
 
-/// Paints many values at once. The result equals colour_at() and position_in() for each.
+/// Paints many values at once. Each pixel equals the result of colour_at() and position_in().
 class PalettePainter {
 public:
     PalettePainter(ValueRange range, const Palette& palette)

@@ -8,7 +8,7 @@ namespace cascade {
 namespace {
 
 constexpr std::string_view file_mark = "CASPIXEL";
-using Header = std::array<std::int64_t, 3>;  ///< Channel, width and height.
+using Header = std::array<std::int64_t, 3>;  ///< The channel, the width and the height.
 constexpr std::size_t header_bytes = file_mark.size() + sizeof(Header);
 
 }  // namespace

@@ -11,13 +11,13 @@
 namespace cascade {
 namespace {
 
-constexpr std::size_t longest_plain_text = 1024;  // Longer texts are compressed.
+constexpr std::size_t longest_plain_text = 1024;  // Longer texts are stored compressed.
 
 std::string text_chunk(const std::string& keyword, const std::string& text, int level) {
     const bool is_long = text.size() > longest_plain_text;
     std::string data = keyword;
     data.append({'\0', is_long ? '\1' : '\0', '\0'});
-    data.append(2, '\0');  // No language and no translated keyword.
+    data.append(2, '\0');  // There is no language and no translated keyword.
     return data + (is_long ? deflated(text, level) : text);
 }
 

@@ -12,8 +12,7 @@ namespace cascade {
 
 inline constexpr std::string_view png_signature = "\x89PNG\r\n\x1a\n";
 
-/// The most bytes of image data that are written in one chunk. Readers store a whole chunk in
-/// memory.
+/// The largest number of bytes of image data in one chunk. Readers store a whole chunk in memory.
 inline constexpr std::size_t longest_png_data = std::size_t{1} << 20;
 
 void append_big_endian(std::string& bytes, std::size_t number);

@@ -1,9 +1,8 @@
 // The common part of the PNG readers, which calls libpng on bytes in memory. Only the files of
 // picture/ include this header.
 //
-// libpng reports an error by a longjmp into guarded(). This skips the remaining code of the
-// functions in between without calling destructors. So actions must not contain objects with
-// destructors.
+// libpng reports an error by a longjmp into guarded(). The jump leaves the functions in between
+// without calling destructors. So actions must not contain objects with destructors.
 #pragma once
 
 #include <png.h>

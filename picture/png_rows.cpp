@@ -48,7 +48,7 @@ WITH_WIDE_VECTORS void find_levels(std::span<const Colour> pixels, std::size_t c
     for (std::size_t k = 0; k < 3 * pixels.size(); ++k) levels[k] = level(values[k]);
 }
 
-/// Finds the levels of grey pixels. Returns false if a pixel has different channels.
+/// Finds the levels of grey pixels. Returns false if the three channels of a pixel are not equal.
 WITH_WIDE_VECTORS bool find_grey_levels(std::span<const Colour> pixels, unsigned highest,
                                         std::uint16_t* levels) {
     int differ = 0;
@@ -68,7 +68,7 @@ WITH_WIDE_VECTORS bool find_painted_levels(std::span<const float> values, const 
     const double width = static_cast<double>(how.range.high) - low;
     const double from = static_cast<double>(how.palette.stops[0][0]);
     const double rise = static_cast<double>(how.palette.stops[1][0]) - from;
-    // The number is 1, but compilers do not vectorise the loop if they can deduce that.
+    // The number is 1, but compilers do not vectorise the loop if they can deduce this.
     const double last = static_cast<double>(how.palette.stops.size() - 1);
     int is_one_nan = 0;
     for (std::size_t k = 0; k < values.size(); ++k) {
@@ -101,8 +101,8 @@ public:
     SampleWriter(const PngFormat& format, std::size_t width)
         : format_(format), levels_(width * format.colours()) {}
 
-    /// Writes pixels in the most common format, opaque grey. Returns false if the format or a pixel
-    /// differs.
+    /// Writes opaque grey pixels, the most common format. Returns false if the format is another or
+    /// a pixel is not an opaque grey.
     bool put_grey(const PixelRow& row, Byte* out) {
         if (!format_.is_grey || format_.has_alpha) return false;
         if (!find_grey_levels(row.pixels, highest_, levels_.data())) return false;
@@ -165,8 +165,8 @@ std::size_t bytes_of_row(const PngFormat& format, std::int64_t width) {
     return 1 + static_cast<std::size_t>(width) * format.pixel_bytes();
 }
 
-/// Writes all rows in the format of `rows`. If a row needs further channels, adds them to the
-/// format and returns false.
+/// Writes all rows in the format of `rows`. If a row needs more channels, adds them to the format
+/// and returns false.
 bool put_rows(const Image& image, PngRows& rows) {
     const PngFormat format = rows.format;
     const std::size_t count = bytes_of_row(format, image.width);
@@ -184,7 +184,8 @@ bool put_rows(const Image& image, PngRows& rows) {
     return true;
 }
 
-/// Writes all rows as opaque grey. Returns false if that is not possible.
+/// Writes all rows as opaque grey. Returns false if the palette has other colours or a value is
+/// NaN.
 bool put_painted_rows(const Painting& painting, PngRows& rows) {
     if (!painting.has_two_greys()) return false;
     const PlaneLayout& layout = painting.field.layout();
@@ -203,12 +204,12 @@ Byte byte_distance(Byte one, Byte other) {
     return static_cast<Byte>(std::max(one, other) - std::min(one, other));
 }
 
-/// The prediction of filter 4: the byte on the left, above, or above to the left that is nearest to
-/// left + above − corner. Computes with bytes only, because a vector holds more of them than of
-/// wider numbers.
+/// The prediction of filter 4: of the bytes on the left, above, and above to the left (the corner),
+/// the one that is nearest to left + above − corner. Computes with bytes only, because a vector
+/// holds more bytes than wider numbers.
 Byte paeth(Byte left, Byte above, Byte corner) {
     const Byte by_left = byte_distance(above, corner), by_above = byte_distance(left, corner);
-    // If the corner is not between the two others, it is the farthest.
+    // If the corner is not between the two others, it is farthest from the sum.
     const bool is_between = (above >= corner) != (left >= corner);
     const Byte by_corner = is_between ? byte_distance(by_left, by_above) : Byte{255};
     const Byte upper = by_above <= by_corner ? above : corner;
@@ -235,9 +236,9 @@ WITH_WIDE_VECTORS void filter(const Byte* row, const Byte* above, std::size_t co
     subtract(4, [&](std::size_t k) { return paeth(left[k], above[k], corner[k]); });
 }
 
-/// The sum of the absolute values of differences, which are bytes modulo 256.
+/// The sum of the absolute values of differences. A difference is a byte modulo 256.
 WITH_WIDE_VECTORS std::uint32_t size_of(const std::vector<Byte>& differences) {
-    constexpr std::size_t at_once = 256;  // The sum of this many fits into 16 bits.
+    constexpr std::size_t at_once = 256;  // The sum of this many bytes fits into 16 bits.
     std::uint32_t sum = 0;
     for (std::size_t begin = 0; begin < differences.size(); begin += at_once) {
         const std::size_t end = std::min(differences.size(), begin + at_once);
@@ -265,7 +266,7 @@ void filter_rows(std::span<std::uint8_t> rows, std::size_t count, std::size_t pi
     std::vector<Byte> row(pixel + count), above(pixel + count);
     std::array<std::vector<Byte>, filters> results;
     results.fill(std::vector<Byte>(count));
-    // Goes upwards, so that the row above is still unfiltered.
+    // Goes from the last row to the first, so that the row above is still unfiltered.
     const auto take = [&](std::size_t end, std::vector<Byte>& to) {
         if (end == 0) std::fill(to.begin(), to.end(), Byte{0});
         else std::copy_n(rows.begin() + (end - count), count, to.begin() + pixel);

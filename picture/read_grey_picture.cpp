@@ -21,9 +21,9 @@ struct Format {
     std::int64_t height = 0;
     std::uint64_t packed_bytes = 0;  ///< The size of all rows, before compression.
     std::size_t row_bytes = 0;
-    int channels = 0;  ///< 1: grey. 2: grey and alpha. 3: colour. 4: colour and alpha.
+    int channels = 0;  ///< 1 for grey, 2 for grey and alpha, 3 for colour, 4 for colour and alpha.
     int depth = 0;     ///< Bits for each channel, 8 or 16.
-    int passes = 1;    ///< Above 1 if the picture is interlaced.
+    int passes = 1;    ///< The number of passes, above 1 if the picture is interlaced.
 };
 
 /// Reads the header without allocating even a row. Skips ancillary chunks (texts and profiles),
@@ -44,12 +44,13 @@ bool read_header(PngReader& reader, Format& format) {
     });
 }
 
-/// Makes libpng convert channels to 8 or 16 bits, and allocate its rows.
+/// Makes libpng convert channels to 8 or 16 bits, and allocate memory for rows.
 bool start_rows(PngReader& reader, Format& format) {
     return reader.guarded([&] {
         png_structp png = reader.png();
         png_infop info = reader.info();
-        // Palettes become colours, few bits become 8, and a transparent colour becomes alpha.
+        // Palettes become colours, channels of few bits get 8 bits, and a transparent colour
+        // becomes alpha.
         png_set_expand(png);
         png_read_update_info(png, info);
         format.row_bytes = png_get_rowbytes(png, info);
@@ -58,7 +59,7 @@ bool start_rows(PngReader& reader, Format& format) {
     });
 }
 
-/// One channel of a pixel, 0 … 1. Words of 16 bits are big-endian.
+/// One channel of a pixel, 0 … 1. Channels of 16 bits are big-endian.
 float level(const png_byte* row, std::size_t channel, int depth) {
     if (depth == 8) return static_cast<float>(row[channel]) / 255.0F;
     const unsigned word = row[2 * channel] * 256U + row[2 * channel + 1];
@@ -123,7 +124,8 @@ Result<GreyPicture> parse(std::string_view bytes, PictureChannel channel) {
                                    format.height, most_pixels),
                        "make the picture smaller");
     }
-    // With few bits for each pixel, the size of the file would otherwise permit too much memory.
+    // For a large picture, counts at least a byte for each pixel. With fewer bits for each pixel, a
+    // small file could otherwise make the reader use too much memory.
     const auto pixels = static_cast<std::uint64_t>(format.width * format.height);
     const std::uint64_t least =
         pixels > many_pixels ? std::max(pixels, format.packed_bytes) : format.packed_bytes;

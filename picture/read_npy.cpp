@@ -21,10 +21,10 @@ static_assert(std::endian::native == std::endian::little);
 constexpr std::uint64_t most_elements = std::uint64_t{1} << 31;
 static_assert(largest_npy_file >= most_elements * 8);
 
-/// Converts the elements of a file to numbers. `swapped` means that they are big-endian.
+/// Converts the elements of a file to numbers. `swapped` means that the elements are big-endian.
 using Convert = void (*)(std::string_view bytes, bool swapped, std::vector<double>& values);
 
-/// Converts elements of type T. Each is rounded to Number, once.
+/// Converts elements of type T. Each element is rounded only once, to Number.
 template <typename T, typename Number>
 void convert(std::string_view bytes, bool swapped, std::vector<double>& values) {
     for (std::size_t k = 0; k < values.size(); ++k) {
@@ -61,8 +61,8 @@ constexpr std::array<ElementType, 11> element_types{{
     element_type<std::uint8_t>("b1"),
 }};
 
-/// Finds the type without its byte order. Null if it is unknown. Only a type of one byte may lack a
-/// byte order ('|').
+/// Finds a type by its name without the byte order. Null if the type is unknown. Only a type of one
+/// byte may lack a byte order ('|').
 const ElementType* find_type(std::string_view type) {
     if (type.size() != 3 || std::string_view("<>=|").find(type[0]) == std::string_view::npos) {
         return nullptr;
@@ -74,7 +74,7 @@ const ElementType* find_type(std::string_view type) {
     return nullptr;
 }
 
-/// The name of a type from a file, made safe for a message.
+/// The name of a type, as it is in a file, made safe for a message.
 std::string shown(std::string_view type) {
     std::string text(type.substr(0, 20));
     for (char& c : text) {

@@ -1,9 +1,9 @@
 // Reads the text chunks of PNG files, which may come from strangers.
 //
-// libpng can easily read texts before the picture's data, but later ones only by inflating the
-// picture. So this reader goes through the chunks of the file, and gives libpng a short file for
-// each text, with the header and that text alone. libpng checks and inflates the text within the
-// limit that remains for all texts.
+// libpng can easily read texts that precede the picture's data, but needs to inflate the picture to
+// read later texts. So this reader goes through the chunks of the file, and gives libpng a short
+// file for each text, with the header and that text alone. libpng checks and inflates the text
+// within the limit that remains for all texts.
 #include "core/enough_memory.h"
 #include "core/file.h"
 #include "picture/image.h"
@@ -23,15 +23,16 @@ constexpr std::uint64_t largest_file = std::uint64_t{1} << 30;
 constexpr std::size_t signature_size = 8;
 // The length, name and checksum around a chunk's data.
 constexpr std::size_t chunk_frame = 12;
-constexpr std::size_t most_texts = 64;         // Further texts are skipped.
-constexpr std::size_t longest_keyword = 1024;  // Includes room for the other data of a text chunk.
+constexpr std::size_t most_texts = 64;  // In a file with more texts, further texts are skipped.
+// The keyword, with room for the other data of a text chunk.
+constexpr std::size_t longest_keyword = 1024;
 
 struct Chunk {
     std::string_view name;
-    std::string_view whole;  ///< Includes length, name and checksum.
+    std::string_view whole;  ///< The chunk with its length, name and checksum.
 };
 
-/// The chunk at the start of `bytes`. Empty if it is incomplete.
+/// The chunk at the start of `bytes`; nullopt if the chunk is incomplete.
 std::optional<Chunk> first_chunk(std::string_view bytes) {
     if (bytes.size() < chunk_frame) return std::nullopt;
     const std::uint32_t size = png_get_uint_32(reinterpret_cast<png_const_bytep>(bytes.data()));
@@ -39,13 +40,14 @@ std::optional<Chunk> first_chunk(std::string_view bytes) {
     return Chunk{bytes.substr(4, 4), bytes.substr(0, chunk_frame + size)};
 }
 
-/// The parts of a PNG file that matter here.
+/// The header and the texts of a PNG file.
 struct HeaderAndTexts {
-    std::string_view header;              ///< Includes the signature.
-    std::vector<std::string_view> texts;  ///< Whole chunks.
+    std::string_view header;  ///< The header with the signature.
+    /// The chunks of the texts, with length, name and checksum.
+    std::vector<std::string_view> texts;
 };
 
-/// Finds these parts. `bytes` must begin with a signature.
+/// Finds the header and the texts. `bytes` must begin with a signature.
 Result<HeaderAndTexts> find_texts(std::string_view bytes) {
     HeaderAndTexts found;
     for (std::size_t position = signature_size;;) {
@@ -61,12 +63,12 @@ Result<HeaderAndTexts> find_texts(std::string_view bytes) {
     }
 }
 
-/// Reads the chunks before the picture's data. Texts may have `room` bytes.
+/// Reads the chunks before the picture's data. Texts may take at most `room` bytes.
 bool read_texts(PngReader& reader, std::size_t room) {
     return reader.open() && reader.guarded([&reader, room] {
         png_set_chunk_malloc_max(reader.png(), room + longest_keyword);
-        // Here, benign errors of libpng, such as a text that cannot be inflated, count as errors,
-        // because half a script is useless.
+        // Benign errors of libpng, such as a text that cannot be inflated, count as errors, because
+        // half a script is useless.
         png_set_benign_errors(reader.png(), 0);
         png_read_info(reader.png(), reader.info());
     });

@@ -7,13 +7,13 @@
 namespace cascade {
 namespace {
 
-/// The weights of adjacent old pixels in a new one.
+/// The weights with which adjacent old pixels add up to a new pixel.
 struct Blend {
     std::int64_t first = 0;
     std::vector<double> weights;
 };
 
-/// The mean over the interval of old pixels that the new pixel covers.
+/// The weights for the mean over the interval of old pixels that the new pixel covers.
 Blend mean_over(double begin, double end, std::int64_t count) {
     Blend blend{std::min(static_cast<std::int64_t>(begin), count - 1), {}};
     for (std::int64_t k = blend.first; k < count && static_cast<double>(k) < end; ++k) {
@@ -24,7 +24,8 @@ Blend mean_over(double begin, double end, std::int64_t count) {
     return blend;
 }
 
-/// Linear interpolation between the centres of pixels, constant beyond the outermost centres.
+/// The weights for linear interpolation between the centres of pixels. Beyond the outermost
+/// centres, values are constant.
 Blend between(double middle, std::int64_t count) {
     const double last = static_cast<double>(count - 1);
     const double position = std::clamp(middle - 0.5, 0.0, last);
@@ -46,7 +47,8 @@ std::vector<Blend> blends(std::int64_t from, std::int64_t to) {
     return result;
 }
 
-/// A new pixel of the line that begins at `start`. The pixels of the line are `stride` apart.
+/// Computes a new pixel of the line that begins at `start`. The pixels of the line are `stride`
+/// apart.
 double blended(const std::vector<float>& values, std::int64_t start, std::int64_t stride,
                const Blend& blend) {
     double sum = 0;
@@ -84,7 +86,7 @@ GreyPicture with_height(const GreyPicture& picture, std::int64_t height) {
 }  // namespace
 
 GreyPicture resized(const GreyPicture& picture, std::int64_t width, std::int64_t height) {
-    // Begins with the axis that leaves fewer pixels, because a picture may be very narrow.
+    // Begins with the axis after which fewer pixels remain, because a picture may be very narrow.
     if (width * picture.height <= picture.width * height) {
         return with_height(with_width(picture, width), height);
     }

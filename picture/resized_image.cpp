@@ -10,11 +10,11 @@ namespace cascade {
 
 namespace {
 
-/// The red, green and blue of a pixel times its opacity, and the opacity.
+/// The red, green and blue of a pixel, each times the opacity, and the opacity.
 using Weighted = std::array<float, 4>;
 
-/// Means of `count` values over `parts` equal intervals. `value(k)` returns value k, and
-/// `put(part, mean)` takes a mean.
+/// Computes the means of `count` values over `parts` equal intervals. Gets value k by `value(k)`,
+/// and calls `put(part, mean)` for each interval.
 template <typename ValueAt, typename Put>
 void average(std::int64_t count, std::int64_t parts, const ValueAt& value, const Put& put) {
     const double step = static_cast<double>(count) / static_cast<double>(parts);

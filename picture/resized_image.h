@@ -11,7 +11,7 @@ namespace cascade {
 /// the part of the image that it covers, weighted by opacity.
 Image resized(const Image& image, std::int64_t width, std::int64_t height);
 
-/// The image in the middle of a larger one, which is transparent around it.
+/// A larger image with this image in its middle. The new pixels are transparent.
 Image in_the_middle(const Image& image, std::int64_t width, std::int64_t height);
 
 }  // namespace cascade

@@ -9,8 +9,9 @@
 namespace cascade {
 namespace {
 
-constexpr std::int64_t comfortable_panel = 192;  // Smaller pictures than half of this are enlarged.
-constexpr std::int64_t label_gap = 6;            // Between the frame of a picture and its label.
+constexpr std::int64_t comfortable_panel = 192;  // Pictures smaller than half of this are enlarged.
+// Pixels between the frame of a picture and its label.
+constexpr std::int64_t label_gap = 6;
 
 /// Sizes in pixels that all panels of a sheet share.
 struct Sizes {
@@ -59,7 +60,7 @@ Image make_sheet(std::span<const Panel> panels, int columns) {
         const std::int64_t y = sheet_margin + k / across * panel_height;
         const std::int64_t height = shown_height(panel.image, sizes.enlarge);
         draw_framed(sheet, panel.image, x, y, sizes.enlarge, height);
-        // The label is directly below the picture, even if others in the row are higher.
+        // The label is directly below its picture, even if other pictures in the row are higher.
         draw_text(sheet, panel.label, x, y + height + label_gap, sizes.width, sizes.dot);
     }
     return sheet;

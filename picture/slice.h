@@ -20,9 +20,9 @@ struct Slice {
 /// if `place` is 1.
 std::int64_t slice_number(const PlaneLayout& layout, Slice slice);
 
-/// The grid of a slice's picture. A slice perpendicular to z has x as columns and y as rows.
-/// Perpendicular to y it has x as columns and z as rows. Perpendicular to x it has z as columns and
-/// y as rows.
+/// The grid of a slice's picture. A slice perpendicular to z has x along columns and y along rows.
+/// A slice perpendicular to y has x along columns and z along rows. A slice perpendicular to x has
+/// z along columns and y along rows.
 Grid slice_grid(const PlaneLayout& layout, Slice slice);
 
 /// The values of a slice, as a field on the grid that slice_grid() returns. The halo is 0.

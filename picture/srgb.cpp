@@ -13,8 +13,9 @@ namespace {
 
 /// Computes x ^ exponent in a seventh of the time of std::pow. Each octave is divided into 128
 /// parts. Around the middle m of a part, x = m (1 + r) with |r| ≤ 2^-8. The binomial series of (1 +
-/// r) ^ exponent ends after r⁵, because the rest is below 2^-53. Of the 100 million arguments of
-/// the two functions below, only one has a result that differs from the rounded std::pow.
+/// r) ^ exponent ends after r⁵, because the rest is below 2^-53. Among the 100 million arguments
+/// that light_of() and stored_of() may have, only one gives a result that differs from the rounded
+/// std::pow.
 class PowerTable {
 public:
     explicit PowerTable(double exponent) : exponent_(exponent) {
@@ -39,7 +40,8 @@ public:
         const auto& [power, inverse] = parts_[part - first_part];
         const double r = (static_cast<double>(x) - middle_of(part)) * inverse;
         const auto& [a, b, c, d, e] = series_;
-        const double square = r * r;  // Shorter than Horner's chain of operations.
+        // This chain of operations is shorter than in Horner's scheme.
+        const double square = r * r;
         return static_cast<float>(power *
                                   ((1 + r * a) + square * ((b + r * c) + square * (d + r * e))));
     }
@@ -51,21 +53,21 @@ private:
     }
 
     struct Part {
-        double power = 0, inverse = 0;  ///< At the middle of the part.
+        double power = 0, inverse = 0;  ///< x ^ exponent and 1 / x at the middle of the part.
     };
     static constexpr std::uint32_t octaves = 10;
-    /// part_of(2^-10), where the first part begins: the sign, the exponent and the seven highest
-    /// bits of the fraction.
+    /// The number of the first part, which is part_of(2^-10). A part's number consists of the sign,
+    /// the exponent and the seven highest bits of the fraction.
     static constexpr std::uint32_t first_part = (127 - octaves) << 7;
     std::array<Part, octaves * 128 + 1> parts_;  ///< The last part begins at 1.
     std::array<double, 5> series_{};
     double exponent_;
 };
 
-/// Up to these values, light is proportional to the stored value.
+/// For values of at most these numbers, light is proportional to the stored value.
 constexpr float dark_stored = 0.04045F, dark_light = 0.0031308F;
 
-/// For stored values above dark_stored, light is bright_part(stored) ^ 2.4.
+/// The base b for which the light of a stored value above dark_stored is b ^ 2.4.
 float bright_part(float stored) { return (stored + 0.055F) / 1.055F; }
 
 const PowerTable& light_power() {
@@ -108,7 +110,8 @@ WITH_WIDE_VECTORS void find_stored(const PowerTable& power, float* __restrict nu
     }
 }
 
-/// Converts all colours with `find_all` if their channels are in 0 … 1, and otherwise one by one.
+/// Converts all colours at once with `find_all` if all channels are in 0 … 1. Otherwise converts
+/// them one by one with `find_one`.
 void convert(std::span<Colour> colours, const PowerTable& power, decltype(find_lights)& find_all,
              Colour (&find_one)(const Colour&)) {
     if (colours.empty()) return;

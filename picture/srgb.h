@@ -26,22 +26,23 @@ inline Colour stored_of(const Colour& light) {
     return {red, stored_of(light[1]), stored_of(light[2])};
 }
 
-/// The following functions apply light_of() or stored_of() to each colour, in a fraction of the
-/// time.
+/// The following functions apply light_of() or stored_of() to each colour, but in a fraction of the
+/// time of separate calls.
 void convert_to_light(std::span<Colour> colours);
 void convert_to_stored(std::span<Colour> colours);
 
-/// Clamps a value to 0 … 1 and rounds it to one of the integers 0 … `highest`, which represent this
-/// range. NaN becomes 0.
+/// Clamps a value to 0 … 1 and maps this range to the integers 0 … `highest`, with rounding. NaN
+/// becomes 0.
 inline unsigned level_of(float value, unsigned highest) {
-    // This form allows compilers to vectorise it.
+    // In this form, compilers can vectorise the computation.
     const double most = highest, amount = static_cast<double>(value) * most;
     const double above = amount > 0 ? amount : 0.0;
     return static_cast<unsigned>(static_cast<int>((above < most ? above : most) + 0.5));
 }
 
 /// base ^ exponent, computed in binary64 and rounded. The standard library's binary32 functions
-/// differ in the last bit between processors. Rounded results of its binary64 functions do not.
+/// differ in the last bit between processors. The rounded results of the library's binary64
+/// functions do not differ.
 float steady_power(float base, double exponent);
 
 }  // namespace cascade

@@ -58,8 +58,8 @@ bool index(const Image& image, int levels, Indexed& indexed) {
     return true;
 }
 
-/// Appends a character for each of `count` columns. Its bits tell which of the six rows have
-/// the colour.
+/// Appends `count` times the character for a group of six pixels in a column. The bits of `rows`
+/// tell which of these pixels have the colour.
 void append_run(std::string& out, int rows, std::int64_t count) {
     const char sixel = static_cast<char>('?' + rows);
     if (count > 3) out += fmt::format("!{}{}", count, sixel);
@@ -95,7 +95,7 @@ void append_band(std::string& out, const Image& image, const Indexed& indexed, s
             ++count;
         }
         if (rows != 0) append_run(out, rows, count);
-        out += '$';  // Goes back to the first column.
+        out += '$';  // This goes back to the first column.
     }
     out += '-';
 }

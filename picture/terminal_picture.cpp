@@ -1,6 +1,6 @@
-// Each character '▀' shows two vertically adjacent pixels: the upper one in the foreground colour,
-// and the lower one in the background colour. Pixels are square, because characters are about twice
-// as high as wide.
+// Each character '▀' shows two vertically adjacent pixels: the upper pixel in the foreground
+// colour, and the lower pixel in the background colour. Pixels are square, because characters are
+// about twice as high as wide.
 #include "core/check.h"
 #include "picture/image.h"
 #include "picture/terminal_graphics.h"
@@ -17,13 +17,14 @@
 namespace cascade {
 namespace {
 
-/// The length of the part of pixel k inside [from, to).
+/// The length of the part of pixel k that is inside [from, to).
 double overlap(std::int64_t k, double from, double to) {
     const auto left = static_cast<double>(k);
     return std::max(0.0, std::min(left + 1, to) - std::max(left, from));
 }
 
-/// The interval of an axis with `size` pixels that pixel k of `parts` covers.
+/// The interval of pixels, along an axis with `size` pixels, that becomes pixel k of `parts` new
+/// pixels.
 struct Stretch {
     double from;
     double to;
@@ -64,7 +65,7 @@ Average average(const Image& image, const Stretch& across, const Stretch& down) 
     return result;
 }
 
-/// Whether a pixel is drawn. Characters and sixels cannot be drawn in part.
+/// Whether a pixel is drawn. Characters and sixels can only be drawn or left out as a whole.
 bool is_seen(double opacity) { return opacity >= 0.5; }
 
 }  // namespace
@@ -89,7 +90,7 @@ namespace {
 
 using Levels = std::array<int, 3>;
 
-/// The levels of a colour. Empty if the terminal's background is shown.
+/// The levels of a colour; nullopt if the terminal's background is shown.
 std::optional<Levels> bytes_of(const Colour& colour, double opacity) {
     if (!is_seen(opacity)) return std::nullopt;
     Levels bytes{};
@@ -101,7 +102,7 @@ std::optional<Levels> bytes_of(const Colour& colour, double opacity) {
 }
 
 /// Appends the escape sequence of a colour if it differs from the current one. `kind` is 38 for the
-/// foreground and 48 for the background. An empty colour means the terminal's own.
+/// foreground and 48 for the background. nullopt stands for the terminal's own colour.
 void set_colour(std::string& out, std::optional<Levels>& current,
                 const std::optional<Levels>& wanted, int kind) {
     if (current == wanted) return;
@@ -138,7 +139,7 @@ std::string half_blocks(const Image& image, int columns) {
     for (std::int64_t y = 0; y < image.height; y += 2) {
         std::optional<Levels> ink, ground;
         for (std::int64_t x = 0; x < image.width; ++x) {
-            // If the number of rows is odd, the terminal's background is below the last one.
+            // If the number of rows is odd, the terminal's background is below the last row.
             const auto bytes = [&](std::int64_t row) -> std::optional<Levels> {
                 if (row >= image.height) return std::nullopt;
                 return bytes_of(image.at(x, row), static_cast<double>(image.opacity(x, row)));

@@ -15,8 +15,8 @@ namespace {
 constexpr const char* without_it = "use --volume NAME.vti, which needs no OpenVDB";
 
 #ifdef CASCADE_OPENVDB_MODULE
-/// Whether OpenVDB's libraries and the stacks of their threads fit into the address space. One of
-/// the libraries ends the program, or waits for ever, if it cannot start its threads.
+/// Whether OpenVDB's libraries and the stacks of their threads fit into the address space. If one
+/// of the libraries cannot start its threads, it ends the program or waits for ever.
 bool has_room_for_libraries() {
     constexpr std::size_t room = std::size_t{192} << 20;
     void* const pages = ::mmap(nullptr, room, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);

@@ -20,30 +20,32 @@ namespace cascade {
 
 /// The content of a .vdb file: a grid for each array, and metadata.
 struct VdbVolume {
-    std::span<const VolumeArray> arrays;     ///< At least one. All must have the same layout.
+    /// At least one array. All arrays must have the same layout.
+    std::span<const VolumeArray> arrays;
     std::array<double, 3> spacing{1, 1, 1};  ///< The lengths of a cell along x, y and z.
-    const Mask* inside = nullptr;  ///< A mask. Where it is 0, voxels are inactive. May be null.
+    /// Voxels are inactive where this mask is 0. Null if all voxels are active.
+    const Mask* inside = nullptr;
     std::map<std::string, std::string> texts;
     std::string stage;
     std::int64_t step = 0;
-    double time = 0;  ///< Time since the start of the stage. NaN is not written.
+    double time = 0;  ///< The time since the start of the stage. NaN is not written.
 };
 
-/// The name of the plug-in's only symbol. It is a function that takes the version of its caller and
-/// returns the encoder, or null if the plug-in has another version.
+/// The name of the plug-in's only symbol. The symbol is a function that takes the version of its
+/// caller and returns the encoder, or null if the plug-in has another version.
 inline constexpr const char* vdb_encoder_symbol = "cascade_vdb_encoder";
 using VdbEncoder = Result<std::string>(const VdbVolume& volume);
 using VdbEncoderEntry = VdbEncoder*(std::string_view version);
 
 /// Loads the plug-in that writes .vdb files. Fails if this build has no plug-in or if the OpenVDB
-/// library is missing. The error is about the output file `path`, and says what to install.
+/// library is missing. The error message is about the output file `path`, and says what to install.
 Result<void> check_vdb(const std::filesystem::path& path);
 
 /// Writes a file atomically. Each array becomes a fog volume with the name and the precision of the
 /// array. The centre of cell (i, j, k) is at (i + ½, j + ½, k + ½) · spacing, as in a .vti file.
-/// The voxels of all cells inside are active. Every NaN is written as 0x7fc00000 or
-/// 0x7ff8000000000000. Equal volumes give equal bytes. Fails like check_vdb() and write_file(), and
-/// if memory is exhausted.
+/// The voxels of all cells inside the domain are active. Every NaN is written as 0x7fc00000 or
+/// 0x7ff8000000000000. Equal volumes give equal bytes. Fails if check_vdb() or write_file() would
+/// fail, and if memory is exhausted.
 Result<void> write_vdb(const std::filesystem::path& path, const VdbVolume& volume);
 
 }  // namespace cascade

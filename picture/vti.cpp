@@ -14,10 +14,10 @@ namespace cascade {
 
 namespace {
 
-/// The number of bytes of an array, which is stored before its elements.
+/// The number of bytes of an array. It is stored before the array's elements.
 using BlockSize = std::uint64_t;
 
-/// vtkDataSetAttributes::HIDDENCELL, which marks a hidden cell.
+/// The value of vtkDataSetAttributes::HIDDENCELL, which marks a hidden cell.
 constexpr char hidden_cell = 32;
 
 }  // namespace

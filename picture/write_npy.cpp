@@ -8,8 +8,9 @@
 namespace cascade {
 namespace {
 
-constexpr std::size_t prefix_size = 10;  // \x93NUMPY, the version and the header's size.
-constexpr std::size_t alignment = 64;    // NumPy aligns the elements to this many bytes.
+// The bytes of \x93NUMPY, the version and the header's size.
+constexpr std::size_t prefix_size = 10;
+constexpr std::size_t alignment = 64;  // NumPy aligns the elements to this many bytes.
 
 }  // namespace
 

@@ -28,7 +28,8 @@ std::string header_of(PngSize size, const PngFormat& format) {
     append_big_endian(header, static_cast<std::size_t>(size.height));
     header += static_cast<char>(format.depth);
     header += static_cast<char>((format.is_grey ? 0 : 2) | (format.has_alpha ? 4 : 0));
-    return header.append(3, '\0');  // The standard compression and filters, not interlaced.
+    // The file has the standard compression and filters, and is not interlaced.
+    return header.append(3, '\0');
 }
 
 std::string compressed_rows(std::vector<std::uint8_t> rows, int level) {

@@ -110,7 +110,7 @@ private:
     bool is_busy_ = false;  ///< Read and written only while Python's global lock is held.
 };
 
-/// Takes up to `count` steps. The call ends early at Ctrl-C, or if `watch` returns False.
+/// Takes at most `count` steps. The call ends early at Ctrl-C, or if `watch` returns False.
 std::int64_t step(PythonPattern& of, std::int64_t count, const py::object& watch);
 
 /// The values of an expression as an array, without a copy if possible (PatternView).

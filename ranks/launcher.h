@@ -18,7 +18,7 @@ namespace cascade {
 /// only works for programs that use that library.
 enum class MpiLibrary : std::uint8_t { open_mpi, mpich };
 
-/// "Open MPI" or "MPICH"
+/// Returns "Open MPI" or "MPICH".
 std::string_view name_of(MpiLibrary library);
 /// The packages of Debian that provide the library, such as "libmpich-dev and mpich".
 std::string_view packages_of(MpiLibrary library);
@@ -33,9 +33,9 @@ int launched_rank();
 /// The number of ranks of this run that are on this machine; at least 1.
 int ranks_on_this_machine();
 
-/// The library to use: the `wanted` one or, if this is empty, the library of the launcher that has
-/// started this process, or else the first one that has a module. Fails if this build has no module
-/// for the chosen library.
+/// Chooses the `wanted` library or, if it is empty, the library of the launcher that has started
+/// this process. Without a launcher, chooses the first library that has a module. Fails if this
+/// build has no module for the chosen library.
 Result<MpiLibrary> choose_mpi(std::optional<MpiLibrary> wanted);
 
 /// The name of this machine, or "?" if it is unknown.

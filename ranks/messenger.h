@@ -46,12 +46,12 @@ public:
 
     /// Sends a message without waiting until it is received. Any rank may call it at any time.
     virtual void post(int rank, std::vector<std::byte> bytes) = 0;
-    /// The next posted message of any rank. Empty if none has arrived. Messages of one rank arrive
-    /// in the order in which it has posted them. Every posted message must be received before
-    /// finish().
+    /// Returns the next posted message of any rank. Empty if none has arrived. Messages of one rank
+    /// arrive in the order in which the rank has posted them. Every posted message must be received
+    /// before finish().
     virtual std::optional<Letter> receive() = 0;
 
-    /// Ends the communication, when all ranks have called it.
+    /// Ends the communication. Waits until all ranks have called this function.
     virtual void finish() = 0;
     /// Ends all ranks at once, and gives the launcher this exit status, which must be from 1 to
     /// 255. Any rank may call it at any time.

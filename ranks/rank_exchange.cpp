@@ -35,8 +35,8 @@ RankExchange::RankExchange(const Grid& grid, Messenger& messenger, RankLoad& loa
     CHECK(parts_.size() == static_cast<std::size_t>(messenger.count()), "a part for each rank");
 }
 
-/// Adds to `all` the transfers that fill the rows `needed` of the halo of part `to`. These rows may
-/// be beyond the grid.
+/// Adds to `all` the transfers that fill the rows `needed` of the halo of part `to`. Some of these
+/// rows may be beyond the grid.
 void RankExchange::add_transfers(int to, RowRange needed, std::vector<Transfer>& all) const {
     const std::int64_t rows = grid_.height * grid_.depth;
     for (std::int64_t row = needed.begin; row < needed.end; row += layer_) {
@@ -137,7 +137,7 @@ void RankExchange::gather(std::span<const Field* const> own, std::span<Field* co
 void RankExchange::scatter(std::span<const Field* const> whole, std::span<Field* const> own) {
     if (own.empty()) return;
     const TimeOfMessages time(load_);
-    // On linked grids, a part stores more rows than its own and a halo of one layer.
+    // On linked grids, a part stores more rows than its own rows and a halo of one layer.
     std::vector<RowRange> rows(count());
     rows[number_] = common(held(own[0]->layout()), held(PlaneLayout(grid_)));
     std::vector<std::span<std::byte>> blocks;

@@ -13,16 +13,17 @@ namespace cascade {
 
 /// What a rank has spent on steps so far. Ranks send it as bytes.
 struct RankLoad {
-    double computing = 0;         ///< Seconds in kernels and copies: in steps, but not in messages.
-    double processor = 0;         ///< Processor seconds of all threads in the same time.
-    double messages = 0;          ///< Seconds in messages, mostly waiting for other ranks.
-    std::int64_t halo_bytes = 0;  ///< The bytes of halos sent to other ranks.
+    /// Seconds in kernels and copies of the steps, without the seconds in messages.
+    double computing = 0;
+    double processor = 0;             ///< Processor seconds of all threads in the same time.
+    double messages = 0;              ///< Seconds in messages, mostly waiting for other ranks.
+    std::int64_t halo_bytes = 0;      ///< The bytes of halos sent to other ranks.
     std::int64_t halo_exchanges = 0;  ///< How often ranks have sent each other halos.
     std::array<char, 64> machine{};   ///< The name of the rank's machine, ended by a 0.
     bool is_stepping = false;         ///< Whether a TimeOfSteps exists.
 };
 
-/// Adds the time for which it exists to a load, as time spent on steps.
+/// Adds the time for which an object of this class exists to a load, as time spent on steps.
 class TimeOfSteps {
 public:
     explicit TimeOfSteps(RankLoad& load)
@@ -48,8 +49,9 @@ private:
     double processor_;
 };
 
-/// Counts the time for which it exists as messages, not as steps. Does nothing unless a TimeOfSteps
-/// exists. Also subtracts processor time, because MPI libraries use the processor while they wait.
+/// Counts the time for which an object of this class exists as messages, not as steps. Does nothing
+/// unless a TimeOfSteps exists. Also subtracts processor time, because MPI libraries use the
+/// processor while they wait.
 class TimeOfMessages {
 public:
     explicit TimeOfMessages(RankLoad& load)
@@ -73,10 +75,10 @@ private:
     double processor_;
 };
 
-/// A rank that takes more than twice as long as the median of all ranks for the same work.
+/// A rank that takes more than twice the median time of all ranks for the same work.
 struct SlowRank {
     std::size_t rank = 0;
-    double times = 0;  ///< Its time as a multiple of the median.
+    double times = 0;  ///< The rank's time as a multiple of the median.
 };
 
 /// The slowest rank, if its seconds are more than twice the median. With an even number of ranks,

@@ -45,15 +45,15 @@ public:
 
     /// What this rank has spent on steps so far.
     RankLoad& load() { return load_; }
-    /// What all ranks have spent. All ranks must call this.
+    /// What all ranks have spent. All ranks must call this function.
     std::vector<RankLoad> loads();
     /// Sets a function that rank 0 calls with a sentence about a rank that keeps the others
     /// waiting, once for each such rank.
     void tell_slow(std::function<void(const std::string&)> tell) { tell_slow_ = std::move(tell); }
     /// Whether ten seconds have passed since the last call of compare_loads().
     bool is_time_to_compare() const;
-    /// Finds ranks that took more than twice the median time since the last call. All ranks must
-    /// call this.
+    /// Finds ranks that have taken more than twice the median time since the last call. All ranks
+    /// must call this function.
     void compare_loads();
 
     /// Waits for all ranks and ends the communication. Returns `status` of rank 0 on rank 0, and 0
@@ -72,7 +72,7 @@ private:
     std::vector<bool> is_told_;  ///< For each rank, whether it has been named as slow.
 };
 
-/// "rank 1 of 4 on NAME", the name of its machine
+/// A text such as "rank 1 of 4 on NAME", where NAME is the name of the rank's machine.
 std::string name_of_rank(const Ranks& ranks);
 
 }  // namespace cascade

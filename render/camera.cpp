@@ -22,8 +22,8 @@ struct Turn {
 };
 
 /// The range of the scene along one axis of the picture. Seen from the eye, every vertex must be
-/// between the slopes −half and half. So each vertex gives a lower bound of the eye's distance. The
-/// bound is larger if the vertex is farther from the middle or nearer to the eye.
+/// between the slopes −half and half. So each vertex gives a lower bound of the eye's distance,
+/// which is larger for vertices farther from the middle or nearer to the eye.
 struct Extent {
     float low = -INFINITY, high = -INFINITY;
     void add(float offset, float backward, float half) {
@@ -50,7 +50,7 @@ struct Extent {
 Camera::Camera(const Scene& scene, const View& view, std::int64_t width, std::int64_t height) {
     const Turn around(view.azimuth);
     const Turn above(view.elevation);
-    // The axis towards the viewer at azimuth 0, and the axis to that viewer's right.
+    // The axis towards a viewer at azimuth 0, and the axis to this viewer's right.
     const Vector3 front = view.up.z != 0   ? Vector3{0, -1, 0}
                           : view.up.y != 0 ? Vector3{0, 0, 1}
                                            : Vector3{0, 1, 0};
@@ -71,7 +71,7 @@ Camera::Camera(const Scene& scene, const View& view, std::int64_t width, std::in
     if (view.is_turning) {
         middle = bounds(scene).centre();
         scene.visit([&](const Vector3& p) {
-            // When the scene rotates, a point of it describes a circle around the axis.
+            // When the scene rotates, each of its points describes a circle around the axis.
             const float rise = dot(p - middle, view.up);
             const float radius = length(p - middle - view.up * rise);
             const float back = rise * above.sine;

@@ -25,7 +25,7 @@ Image draw(const RayCaster& caster, const SurfaceLook& look, const DrawOptions& 
             drawer.draw(tile % columns * TileDrawer::side, tile / columns * TileDrawer::side,
                         image);
             if (thread != 0 || !options.report) continue;
-            // A tile of another thread counts as done as soon as that thread begins it.
+            // A tile of another thread counts as done as soon as the thread begins it.
             const double part =
                 static_cast<double>(std::min(next.load(), tiles)) / static_cast<double>(tiles);
             if (!options.report(part)) next = tiles;

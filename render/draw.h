@@ -21,7 +21,7 @@ using SurfaceColour = std::function<Colour(const Hit&)>;
 struct Sight {
     Hit hit;
     Vector3 direction;  ///< Direction of the ray, of length 1.
-    /// The width, at the hit and across the ray, of the area that the ray samples.
+    /// The width of the area that the ray samples, at the hit and perpendicular to the ray.
     float width = 0;
 };
 
@@ -47,19 +47,22 @@ struct DrawOptions {
     bool ground = true;
     bool round_shadows =
         false;  ///< Whether to make shadows on large facets look as if the surface were smooth.
-    /// The opacity of the body at a hit, 0 … 1. If empty, the body is opaque. Where the opacity is
-    /// below 1, what is behind shows through, and light passes. Several threads call it at once.
+    /// The opacity of the body at a hit, 0 … 1. If empty, the body is opaque. If the opacity is
+    /// below 1, light passes, and surfaces behind the body are visible. Several threads call it at
+    /// once.
     std::function<float(const Hit&)> opacity = {};
-    /// Called now and then, in the calling thread, with the fraction done, 0 … 1. May be empty. If
-    /// it returns false, drawing stops, and the returned picture is incomplete.
+    /// Called now and then, in the calling thread, with the fraction of the picture that is done, 0
+    /// … 1. May be empty. If the function returns false, drawing stops, and the returned picture is
+    /// incomplete.
     std::function<bool(double)> report = {};
 };
 
 /// Renders by ray tracing. The picture is the same with any number of threads and on every
 /// processor. Both sides of a surface are drawn. `look` gives the appearance of the body, and may
 /// be empty if there is no body. Without a background, the opacity of a pixel is the fraction that
-/// surfaces cover. The shadow on the ground is then black and partly transparent. Over white, it is
-/// as dark as on a white background. Throws std::bad_alloc.
+/// surfaces cover, and the shadow on the ground is black and partly transparent. If such a picture
+/// is put over white, its shadow is as dark as in a picture with a white background. Throws
+/// std::bad_alloc.
 Image draw(const RayCaster& caster, const SurfaceLook& look, const DrawOptions& options,
            Team& team);
 
@@ -68,7 +71,7 @@ inline Image empty_picture(const DrawOptions& options) {
     return Image(options.width, options.height, options.background.value_or(transparent));
 }
 
-/// Renders a body whose appearance is its colour alone.
+/// Renders a body that has no other properties than its colour.
 Image draw(const TriangleMesh& mesh, const SurfaceColour& colour, const DrawOptions& options,
            Team& team);
 

@@ -10,7 +10,7 @@ namespace cascade {
 struct Gloss {
     float strength = 0.06F;
     float power = 40;
-    /// 0 … 1. The highlight of a metal has the metal's colour, and a metal has no other shade.
+    /// 0 … 1. A metal reflects light only in highlights of its own colour.
     float metalness = 0;
 };
 

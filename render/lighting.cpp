@@ -14,8 +14,8 @@ namespace {
 /// The fraction of light from the front that glass, skin and most materials reflect.
 constexpr float of_glass = 0.04F;
 
-/// For a light of power `p`: the factors of the Legendre polynomials P0, P1 and P2 of the cosine
-/// between normal and light.
+/// The factors of the Legendre polynomials P0, P1 and P2 of the cosine between normal and light,
+/// for a light of power `p`.
 ///
 /// The integrals of ((1 + c)/2)^p P_l(c) over c from −1 to 1 follow from powers of t = (1 + c)/2.
 /// For the cosine, the corresponding factors are π, 2π/3 and π/4. The results are divided by π.
@@ -82,9 +82,9 @@ Colour Lights::soft(const Vector3& normal) const {
 }
 
 Colour Lights::mirrored(const Vector3& direction, const Gloss& gloss) const {
-    // The angle of the half vector is half the angle of the reflected ray. So the power cos^n of
-    // the former is about ((1 + cos)/2)^(n/2) of the latter. Both lobes are nearly Gaussians, whose
-    // squared widths add.
+    // The angle of the half vector is half the angle of the reflected ray. So cos^n of the half
+    // vector's angle is about ((1 + cos)/2)^(n/2) of the reflected ray's angle. Both lobes are
+    // nearly Gaussians, whose squared widths add.
     const double own = static_cast<double>(gloss.power) / 2;
     Colour sum{};
     for (const SoftLight& light : soft_) {

@@ -39,11 +39,12 @@ struct SoftLight {
     double power = 1;  ///< At least 0.
 };
 
-/// All lights of a scene. In units of radiance, a white surface reflects the light 1 if it faces a
-/// uniform environment of radiance 1.
+/// All lights of a scene. The unit of radiance is such that a white surface facing a uniform
+/// environment of radiance 1 reflects the light 1.
 class Lights {
 public:
-    /// Places the lights relative to the camera, but the sky and the ground relative to `up`.
+    /// Places the lights relative to the camera. The sky and the ground are placed relative to
+    /// `up`.
     Lights(Lighting lighting, const Camera& camera, const Vector3& up);
 
     Vector3 sun;               ///< The direction to the centre of the sun, of length 1.
@@ -57,15 +58,15 @@ public:
     /// for Irradiance Environment Maps", 2001).
     Colour soft(const Vector3& normal) const;
 
-    /// The light of the soft lights that a mirrored ray in this direction sees, blurred by the lobe
-    /// of the gloss.
+    /// The light of the soft lights that is mirrored into the viewer's eye from this direction,
+    /// blurred by the lobe of the gloss.
     Colour mirrored(const Vector3& direction, const Gloss& gloss) const;
 
 private:
     void add(const Vector3& towards, const Colour& colour, double power);
 
     std::vector<SoftLight> soft_;
-    /// For each soft light: the factors of the three orders of its convolution with the cosine.
+    /// For each soft light, the factors of the three orders of its convolution with the cosine.
     std::vector<std::array<float, 3>> orders_;
 };
 

@@ -32,7 +32,7 @@ class MeanLight {
 public:
     void add(const PixelLight& ray);
     PixelLight light() const;
-    /// The standard error of the tone, computed as if rays were random.
+    /// The standard error of the tone, computed as if the rays were chosen at random.
     float error() const;
     /// The standard error of the fraction without a surface.
     float error_of_open() const;

@@ -31,9 +31,9 @@ struct Effort {
     bool one_is_enough = true;
     std::uint32_t most_rays = 16;
     /// The rays of a pixel agree if the standard error of their mean tone (the square root of
-    /// light) is below this.
+    /// light) is smaller.
     float error = 0.02F;
-    /// The number of tests for a pixel from which a light is partly hidden. Tests of neighbouring
+    /// The number of tests of a light that is partly hidden from a pixel. Tests at neighbouring
     /// pixels count towards this number.
     std::uint32_t sun_tests = 8, sky_tests = 3;
 

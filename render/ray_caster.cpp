@@ -191,8 +191,8 @@ RTCRay ray_of(const Ray& ray, float reach) {
 
 }  // namespace
 
-/// Whether a ray misses the scene's box, or ends before it. Most rays from the ground do, and
-/// finding this out takes far less time than a search by Embree.
+/// Whether a ray misses the scene's box, or ends before reaching it. Most rays from the ground do,
+/// and this test takes far less time than a search by Embree.
 bool RayCaster::misses_all(const Ray& ray, float reach) const {
     float enters = 0, leaves = reach;
     for (float Vector3::*axis : {&Vector3::x, &Vector3::y, &Vector3::z}) {
@@ -225,7 +225,7 @@ bool RayCaster::is_blocked(const Ray& ray, float reach) const {
     rtcInitIntersectContext(&context);
     RTCRay query = ray_of(ray, reach);
     embree().occluded(tree_->root.get(), &context, &query);
-    return query.tfar < 0;  // Embree marks blocked rays this way.
+    return query.tfar < 0;  // Embree sets the end of a blocked ray to a negative value.
 }
 
 }  // namespace cascade

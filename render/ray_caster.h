@@ -15,7 +15,7 @@ public:
     /// Uses the same instructions on every processor, so that pictures are equal. Throws
     /// std::bad_alloc.
     explicit RayCaster(const Scene& scene);
-    /// False in a browser's tab, which has no Embree. Then a RayCaster cannot be constructed.
+    /// False in a browser's tab, which has no Embree, so that no RayCaster can be constructed.
     static bool is_available();
     ~RayCaster();
 

@@ -1,8 +1,8 @@
 // The positions of samples on a pixel and on the lights.
 //
-// They are points of a low-discrepancy sequence (M. Roberts, "The Unreasonable Effectiveness of
-// Quasirandom Sequences", 2018), shifted in each pixel by a hash of the pixel. So a pixel depends
-// neither on its tile nor on its thread.
+// The positions are points of a low-discrepancy sequence (M. Roberts, "The Unreasonable
+// Effectiveness of Quasirandom Sequences", 2018), shifted in each pixel by a hash of the pixel. So
+// a pixel depends neither on its tile nor on its thread.
 #pragma once
 
 #include "core/hash.h"

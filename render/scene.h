@@ -12,7 +12,7 @@ namespace cascade {
 struct Hit {
     static constexpr std::uint32_t body = 0xffffffff;
 
-    std::uint32_t triangle = 0;  ///< Its index in the body or in the copy's mesh.
+    std::uint32_t triangle = 0;  ///< The triangle's index in the body or in the copy's mesh.
     float u = 0, v = 0;
     float distance = 0;
     std::uint32_t copy =
@@ -27,7 +27,7 @@ class Scene {
 public:
     /// A scene with a body alone.
     Scene(const TriangleMesh& body) : Scene(&body, nullptr) {}  // NOLINT: the simple case.
-    /// One of the two may be null.
+    /// Either the body or the copies may be null.
     Scene(const TriangleMesh* body, const Instances* copies);
 
     const TriangleMesh* body() const { return body_; }

@@ -29,13 +29,12 @@ namespace {
 
 /// The side of a square of pixels. Each pixel of the square tests a different part of a light.
 constexpr int turn_side = 5;
-/// The largest distance, in pixels, from which a pixel uses other pixels' tests of the sun and of
-/// the sky.
+/// The largest distance, in pixels, over which a pixel uses the tests of the sun and of the sky at
+/// other pixels.
 constexpr int sun_reach = 1, sky_reach = 2;
-/// The number of tests for a light that is partly hidden.
+/// The number of tests that a partly hidden light gets.
 constexpr std::uint32_t enough_tests = 16;
-/// Two hits count as on different pieces of a surface if the cosine between their normals is
-/// smaller than this.
+/// Two hits are on different pieces of a surface if the cosine between their normals is smaller.
 constexpr float least_cosine = 0.9F;
 /// If the visible part of the sun differs by more than this between a pixel and its neighbours, the
 /// outline of a shadow is between them.
@@ -72,7 +71,7 @@ void TileDrawer::draw(std::int64_t left, std::int64_t top, Image& image) {
     });
 }
 
-/// Visits the pixels of the tile and of a border of `around` pixels, as far as they are in the
+/// Visits the pixels of the tile and of a border of `around` pixels, except pixels outside of the
 /// picture.
 template <typename Use>
 void TileDrawer::visit(std::int64_t around, const Use& use) {
@@ -130,7 +129,7 @@ TileDrawer::Tally TileDrawer::ask(Light light, const Seen& from, Point place) co
 }
 
 /// Tests whether a light is visible. Adjacent pixels test different parts of the light, and each
-/// pixel tests another part in each round.
+/// pixel tests a different part in each round.
 TileDrawer::Tally TileDrawer::ask_in_turn(Light light, const Pixel& pixel,
                                           std::uint32_t round) const {
     constexpr std::int64_t above_margin = turn_side;
@@ -239,8 +238,8 @@ PixelLight TileDrawer::light_of_pixel(Pixel& pixel) {
     return light_of_rays(pixel, rays, least, shares_of);
 }
 
-/// Whether the pixel's own tests agree with each other, but not with those of its neighbours. In a
-/// slow transition to shadow, the pixel's own tests disagree.
+/// Whether the pixel's own tests agree with each other, but not with the tests of its neighbours.
+/// In a gradual transition to shadow, the pixel's own tests disagree.
 bool TileDrawer::is_at_outline_of_shadow(const Pixel& pixel, float share) const {
     if (pixel.seen.kind == Seen::Kind::background || pixel.all.sun.is_partial()) return false;
     return std::abs(pixel.all.sun.share() - share) > sharp_outline;
@@ -257,7 +256,7 @@ float TileDrawer::share_around(Light light, Pixel& pixel, int reach) {
     if (pixel.seen.kind == Seen::Kind::background) return 1;
     Tally sum;
     if (!pixel.is_partly_hidden[light]) {
-        // If all tests at the pixels around agree, all of them can be used.
+        // If all tests at the surrounding pixels agree, all of them can be used.
         visit_around(pixel, reach, [&](const Pixel& other) { sum += other.all[light]; });
         if (!sum.is_partial()) return sum.share();
         sum = {};

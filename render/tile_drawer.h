@@ -29,7 +29,7 @@ private:
     static constexpr std::int64_t margin = 4;
     static constexpr std::int64_t room_side = side + 2 * margin;
 
-    /// Counts the results of tests whether a light is visible.
+    /// Counts the tests for a light, and the tests in which the light was visible.
     struct Tally {
         std::uint16_t asked = 0, seen = 0;
         Tally& operator+=(Tally other) {

@@ -11,7 +11,7 @@ namespace cascade {
 
 namespace {
 
-constexpr float usual_sun = 0.72F;     ///< The sunlight for which strengths of gloss are given.
+constexpr float usual_sun = 0.72F;     ///< The sunlight to which the strengths of gloss refer.
 constexpr float ground_shade = 0.55F;  ///< The fraction of light that the ground's shadow removes.
 
 /// The offset from a point on a facet to the smooth surface that the normals at the vertices

@@ -1,4 +1,4 @@
-// The hit of a ray from the camera, and the light that reaches it.
+// Finds the hit of a ray from the camera, and the light that reaches this hit.
 //
 // The sun is a disc instead of a point, for soft shadows. The sky is all other light. Hollows are
 // darker because less of the sky is visible from them.
@@ -32,7 +32,8 @@ struct Seen {
     Vector3 place, normal;
 };
 
-/// Traces rays of a picture. The arguments must outlive it. Several threads may use it at once.
+/// Traces rays of a picture. The arguments must outlive the tracer. Several threads may use it at
+/// once.
 class Tracer {
 public:
     Tracer(const RayCaster& caster, const SurfaceLook& look, const DrawOptions& options);
@@ -41,8 +42,8 @@ public:
     /// first surface that is not fully transparent. The ray samples a square of `width` pixels.
     Seen trace(float x, float y, float width) const;
 
-    /// Visits all hits of the ray of trace(), from front to back: use(seen, weight), with weights
-    /// that sum to 1.
+    /// Visits all hits of the ray of trace(), from front to back. Calls use(seen, weight) with
+    /// weights that sum to 1.
     template <typename Use>
     void trace_through(float x, float y, float width, const Use& use) const {
         const Ray ray = camera_.ray(x, y);
@@ -73,8 +74,8 @@ public:
     }
 
 private:
-    /// A ray is not continued behind a surface if it would contribute less than this fraction to
-    /// its light.
+    /// A ray is continued behind a surface only if the rest of the ray would contribute at least
+    /// this fraction to the ray's light.
     static constexpr float least_rest = 1.0F / 512;
 
     Seen surface(const Ray& ray, const Hit& hit, float width) const;

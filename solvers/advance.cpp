@@ -90,7 +90,8 @@ public:
 private:
     bool is_to_go_on() const { return !outcome_.ended && clock_.step < schedule_.last_step; }
 
-    /// Takes some steps and does everything that is due after them. Returns false to end the loop.
+    /// Takes a batch of steps, then reports, checks and observes if that is due. Returns whether
+    /// the loop goes on.
     bool batch(RunControl& control, const Observer& observe) {
         const std::int64_t next = clock_.next_check();
         const std::int64_t stop = std::min(next, schedule_.last_step);
@@ -160,8 +161,8 @@ private:
         clock_.step = replay(stepper_, clock_.last_look, clock_.step, outcome_);
     }
 
-    /// Does everything else that is due when values have been found finite. Returns false to end
-    /// the loop.
+    /// Observes, tests whether the stage ends and chooses the next step length, each if that is
+    /// due. The values must have been found finite. Returns whether the loop goes on.
     bool do_what_is_due(const Observer& observe) {
         const std::int64_t step = clock_.step;
         const double t = clock_.now();
@@ -201,7 +202,7 @@ private:
     BatchTuner tuner_;
     Progress progress_;
     std::int64_t steps_of_stage_;
-    /// Whether the values before the first call are known to be finite.
+    /// Whether the starting values are known to be finite.
     bool is_known_to_be_finite_ = false;
     bool is_checked_ = true;  ///< Whether all values of the present step are known to be finite.
     /// Whether a later call may check the last step of the present call.

@@ -1,9 +1,9 @@
 // The time loop of one stage, which takes step after step.
 //
-// The update is simultaneous: a step reads the old planes and writes new ones, then the two are
-// swapped. Between steps the halo is filled for every species that is read at neighbours (linked
-// cells have no halo). A team of threads shares the rows. Results do not depend on the number of
-// threads.
+// The update is simultaneous: a step reads the old planes and writes new ones, then old and new
+// planes are swapped. Between steps the halo is filled for every species that is read at neighbours
+// (linked cells have no halo). A team of threads shares the rows. Results do not depend on the
+// number of threads.
 #pragma once
 
 #include "core/parallel.h"
@@ -29,8 +29,9 @@ struct NotFinite {
     /// The step in which the value appeared, counted from 1, or Schedule::first_step for a starting
     /// value.
     std::int64_t step = 0;
-    /// The last step whose values are known to be finite: the step before `step`, or, if no copy of
-    /// the values was stored, the step of the last check. Equal to `step` for a starting value.
+    /// The last step whose values are known to be finite: the step before `step` or, if no copy of
+    /// the values was stored, the step of the last check. If a starting value is not finite, this
+    /// equals `step`.
     std::int64_t last_finite = 0;
 
     bool at_start() const { return last_finite == step; }
@@ -62,13 +63,14 @@ struct StageOutcome {
 /// Takes the steps of a stage in one or several calls. Between calls it keeps its threads, its
 /// copies of the species and its measurements of speed.
 ///
-/// Needs memory for three copies of all species, or for two copies if none is stored at checks.
+/// Needs memory for three copies of all species, or for two if the schedule stores no copy at
+/// checks.
 class TimeLoop {
 public:
     /// `problem` holds the passes of the first steps. `species` holds the starting values, and
     /// afterwards the values of the last complete step. Both must outlive the loop, and only the
-    /// loop may change them meanwhile. The addresses of the values in `species` change. `progress`
-    /// carries the stage's name and numbers.
+    /// loop may change them meanwhile. Values in `species` may move to other addresses. `progress`
+    /// carries the stage's name and number.
     TimeLoop(const StepProblem& problem, Schedule schedule, std::vector<Field>& species,
              Progress progress);
     ~TimeLoop();
@@ -84,7 +86,7 @@ public:
     /// cell, and `species` has the spoiled values.
     ///
     /// Reports through `control` at the start, about ten times a second, and at the end of every
-    /// call, then with `stage_done` set. The last step of a call is checked unless
+    /// call, where `stage_done` is set. The last step of a call is checked unless
     /// `control.checks_later`. If `control.cancel` is set, the loop ends at the next complete step.
     /// The loop reads this flag after each batch of steps, about every 20 ms. May be called again
     /// unless a value was spoiled or steps became too short.
@@ -94,7 +96,7 @@ public:
     /// Stepper::curve() of the last step. An observer may call this.
     std::vector<Field> curve() const;
 
-    /// How the last steps went through memory; see Stepping.
+    /// How the last steps used the caches; see Stepping.
     Stepping stepping() const;
 
 private:

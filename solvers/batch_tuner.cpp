@@ -72,8 +72,8 @@ bool BatchTuner::take_judged_step(const std::function<bool()>& take) {
     return true;
 }
 
-/// Restarts the tile tuner if the passes have other candidates than before. Otherwise its
-/// measurements remain valid. Returns whether it was restarted.
+/// Restarts the tile tuner and returns true if the candidate tilings for the present passes have
+/// changed. Otherwise the tuner's measurements remain valid.
 bool BatchTuner::renew_tile_tuner() {
     auto tilings = tilings_to_try();
     if (tilings == tile_tuner_.candidates()) return false;
@@ -105,7 +105,8 @@ std::int64_t BatchTuner::steps_at_once() const {
     return (stepper_.executor().levels() + sweeps - 1) / sweeps;
 }
 
-/// The estimated time of the remaining steps, or the time so far if their number is unknown.
+/// The estimated time of the remaining steps. If their number is unknown, returns the time spent so
+/// far.
 BatchTuner::Seconds BatchTuner::time_left(Seconds of_step) const {
     if (schedule_.check > 0) return spent_ + (Clock::now() - began_);
     const auto by_number = static_cast<double>(schedule_.planned_step - clock_.step);

@@ -39,7 +39,7 @@ public:
 
     int threads() const { return thread_tuner_.threads(); }
     Pace& pace() { return pace_; }
-    /// How the last steps went through memory; see Stepping.
+    /// How the last steps used the caches; see Stepping.
     Stepping stepping() const;
 
 private:

@@ -14,7 +14,7 @@ namespace cascade {
 /// The planes for a solution x of L x = b. Each row belongs to the thread that computes it.
 struct BicgstabPlanes {
     Field& solution;
-    Field& residual;  ///< The residual b − L x, before the first iteration and after the last.
+    Field& residual;  ///< Holds the residual b − L x when run() begins and when it ends.
     Field &shadow, &direction, &image, &other_image;
     const Field& preconditioned;  ///< The plane to which `System::precondition` writes its result.
 };
@@ -25,10 +25,10 @@ struct BicgstabOutcome {
 };
 
 /// `System` has these members, which all threads call:
-///     double dot(const Field& a, const Field& b)   the sum of products in all cells
-///     void precondition(const Field& from)         about the inverse of L, into `preconditioned`
-///     void apply(Field& result)                    L of the plane `preconditioned`
-///     void each_cell(act)                          act(i) for the thread's cells
+///     double dot(const Field& a, const Field& b)   returns the sum of a · b over all cells
+///     void precondition(const Field& from)         approximates L⁻¹ · from in `preconditioned`
+///     void apply(Field& result)                    computes L · preconditioned in `result`
+///     void each_cell(act)                          calls act(i) for each cell of the thread
 ///     void leave_if_cancelled()
 template <typename Number, typename System>
 class Bicgstab {
@@ -46,9 +46,9 @@ public:
     BicgstabOutcome run(double tolerance, int most);
 
 private:
-    /// The least cosine of the angle between the residual and its shadow residual. Below this, the
-    /// next directions would be rounding errors, so iterations begin again from the present
-    /// residual.
+    /// The least cosine of the angle between the residual and its shadow residual. Below this
+    /// limit, the next directions would be rounding errors, so the iteration restarts from the
+    /// present residual.
     static constexpr double least_overlap = sizeof(Number) == sizeof(float) ? 1e-7 : 1e-15;
 
     void begin_again();
@@ -56,7 +56,7 @@ private:
     bool go_along_direction();
     bool damp_rest();
     void measure_rest() { left_ = std::sqrt(system_.dot(planes_.residual, planes_.residual)); }
-    /// Adds a multiple of the preconditioned plane to the solution. `image` is L of that plane.
+    /// Adds `times` times the preconditioned plane to the solution. `image` is L of that plane.
     void add(double times, const Field& image) {
         const auto factor = static_cast<Number>(times);
         const Number* const of_image = image.origin<Number>();

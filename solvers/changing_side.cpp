@@ -25,7 +25,7 @@ std::vector<Number> strip_of(const Field* field, Side side, SideCells cells, std
     return strip;
 }
 
-/// Computes the side's values beside some of its cells. The padding of the buffer is undefined.
+/// Computes the values at the side next to `cells`. The padding of the result is undefined.
 template <typename Number>
 std::vector<Number> compute(const ChangingSide& side, SideMoment moment,
                             const SpeciesPlanes& present, SideCells cells) {

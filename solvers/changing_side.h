@@ -31,27 +31,27 @@ struct SideMoment {
 struct ChangingSide {
     SpeciesId species;
     Side side = Side::left;
-    KernelPointer kernel;  ///< Computes the side's values. The kernel has one result and reads no
-                           ///< neighbours or positions.
+    /// Computes the side's values. The kernel has one result and reads no neighbours or positions.
+    KernelPointer kernel;
     Precision precision = Precision::single;  ///< The precision of the kernel.
-    /// Per field slot of the kernel: the values along the side if they are constant. Empty for a
-    /// slot that reads a species.
+    /// Per field slot of the kernel: the values along the side if they do not change with time.
+    /// Empty for a slot that reads a species.
     std::vector<std::vector<double>> strips;
-    /// Per field slot of the kernel: the species that it reads; nullopt if the slot has constant
-    /// values.
+    /// Per field slot of the kernel: the species that the slot reads; nullopt for a slot whose
+    /// values are in `strips`.
     std::vector<std::optional<SpeciesId>> reads;
     std::vector<double> uniforms;
     std::optional<std::uint32_t> time_slot, step_slot;  ///< The uniforms that depend on the moment.
     bool varies = false;                                ///< Whether values vary along the side.
 };
 
-/// The planes of all species at one moment; null if no side reads the species.
+/// The planes of all species at one moment; null for a species that no side reads.
 using SpeciesPlanes = std::vector<const Field*>;
 SpeciesPlanes planes_of(std::span<const Field> species);
 
-/// Computes the values at a species' sides for `moment` and stores them in `rules`. Computes values
-/// only for the halo cells that depend on `cells`. `present` holds all species at that moment in
-/// these cells. Must run inside a FlushDenormals.
+/// Computes the values at a species' sides for `moment` and stores them in `rules`. Computes only
+/// the values on which the halo cells beside `cells` depend. `present` holds all species at that
+/// moment in `cells`. A FlushDenormals must exist in the calling scope.
 void set_side_values(std::span<const ChangingSide> sides, SpeciesId species, SideMoment moment,
                      const SpeciesPlanes& present, const PlaneLayout& layout, const Patch& cells,
                      SideRules& rules);

@@ -13,10 +13,11 @@ namespace cascade {
 namespace {
 
 constexpr std::int64_t cells_of_block = 64;
-/// Of the bands of blocks, only every n-th is examined. n is the number of cells divided by
-/// `many_cells`, from 1 to 4, or divided by `most_cells` if that is more.
+/// Only every n-th band of blocks is examined. n is the larger of cells / `most_cells`, rounded up,
+/// and cells / `many_cells`, limited to 1 … 4.
 constexpr std::int64_t many_cells = std::int64_t{1} << 14, most_cells = std::int64_t{1} << 22;
-/// The limits of correlation, for neighbours on a grid and for linked cells.
+/// Neighbours alternate only if their correlation is below −`grid_limit` on a grid, or below
+/// −`link_limit` for linked cells.
 constexpr double grid_limit = 0.5, link_limit = 0.3;
 
 /// Correlates the deviations of neighbouring cells, and decides whether neighbours alternate.
@@ -44,7 +45,8 @@ struct Stretch {
     std::int64_t begin = 0, end = 0;
 };
 
-/// Ranges that cover an axis. Each begins `stride` after the previous one.
+/// Covers cells [0, count) of an axis with stretches of `length` cells. Each begins `stride` cells
+/// after the previous one, but the last ends at `count`.
 std::vector<Stretch> stretches(std::int64_t count, std::int64_t length, std::int64_t stride) {
     std::vector<Stretch> all;
     for (std::int64_t begin = 0; all.empty() || all.back().end < count; begin += stride) {
@@ -72,7 +74,7 @@ public:
           inside_(inside),
           least_variance_(0.01 * deviation * deviation) {}
 
-    /// The fraction of the blocks whose cells alternate along an axis.
+    /// The fraction of cells that are in blocks which alternate along an axis.
     double on_grid() {
         const auto sides = block_sides(layout_);
         const auto cut = [&](std::int64_t count, std::int64_t side, std::int64_t apart = 1) {
@@ -155,7 +157,7 @@ private:
         }
     }
 
-    /// Whether pairs along one axis, with both cells in the block, alternate.
+    /// Whether neighbours at offset `to` alternate. Counts pairs whose cells are both in the block.
     bool alternates(const Block& block, double mean, std::array<std::int64_t, 3> to) const {
         const Block first{{block.i.begin, block.i.end - to[0]},
                           {block.j.begin, block.j.end - to[1]},

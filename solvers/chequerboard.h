@@ -11,10 +11,10 @@ namespace cascade {
 ///
 /// The field is examined in overlapping blocks of about 64 cells. So parts that alternate with
 /// opposite phase do not cancel, and an alternation in a small part of the field is found, too. A
-/// block counts if the correlation of neighbours is below −½, and too low for white noise with the
-/// same number of pairs (by 4.5 standard deviations of Fisher's z). Almost uniform blocks and
-/// fields of fewer than 8 pairs are skipped. On grids of at least 2¹⁵ cells, only bands of blocks
-/// at equal distances are examined. In a field of linked cells a block is 64 cells adjacent in
+/// block alternates if the correlation of neighbours is below −½, and also too low for white noise
+/// with the same number of pairs (by 4.5 standard deviations of Fisher's z). Almost uniform blocks
+/// and blocks with fewer than 8 pairs do not alternate. On grids of at least 2¹⁵ cells, only every
+/// few bands of blocks are examined. In a field of linked cells a block is 64 cells adjacent in
 /// memory, and the limit is −0.3, because three mutual neighbours cannot all alternate.
 ///
 /// `inside` marks the cells that count. If it is null, all cells count.

@@ -13,15 +13,14 @@
 namespace cascade {
 namespace {
 
-/// Limits for grids and for linked cells.
 constexpr int most_iterations_on_grids = 200, most_iterations_on_links = 2000;
-/// The Laplacian is not used as a preconditioner if the Laplacian's part of L is smaller than this
-/// fraction of the rest of L. Both parts are measured on a field that alternates from cell to cell.
+/// The Laplacian is not used as a preconditioner if its part of L is smaller than this fraction of
+/// the rest of L. Both parts are measured on a field that alternates from cell to cell.
 constexpr double least_laplacian = 1e-3;
-/// The number that is subtracted from the Laplacian is rounded to this many binary digits, so that
-/// the Laplacian's factors can be reused when the number changes a little.
+/// The number s in a (Δ − s) is rounded to this many binary digits, so that the factors of Δ − s
+/// can be reused when s changes a little.
 constexpr int digits_of_shift = 5;
-/// The solver stops when the norm of e is this fraction of the norm of b.
+/// The solver stops when the norm of e is at most this fraction of the norm of b.
 template <typename Number>
 constexpr double tolerance = sizeof(Number) == sizeof(float) ? 1e-5 : 1e-12;
 
@@ -53,7 +52,7 @@ void ConstraintSolver<Number>::each_row(const Worker& worker, const Act& act) co
     }
 }
 
-/// Calls `act` with each cell's distance in elements from cell (0, 0, 0).
+/// Calls `act` with the index of each cell of the worker, counted from cell (0, 0, 0).
 template <typename Number>
 template <typename Act>
 void ConstraintSolver<Number>::each_cell(const Worker& worker, const Act& act) const {
@@ -84,7 +83,7 @@ ConstraintSolver<Number>::ConstraintSolver(const StepProblem::Solve& solve,
     stencil_.emplace(outer.grid, problem_.sides, areas_of_cells());
 }
 
-/// Runs the passes of a problem and copies its results to `results`.
+/// Runs the passes of a problem and copies the problem's results to `results`.
 template <typename Number>
 void ConstraintSolver<Number>::apply(Worker& worker, PassRunner& runner,
                                      PassRunner::Worker& of_runner, std::vector<Field*> results) {
@@ -100,7 +99,7 @@ void ConstraintSolver<Number>::apply(Worker& worker, PassRunner& runner,
     }
 }
 
-/// The rules at the field's sides, with values for the moment at which the field is found.
+/// The rules at the field's sides, with values for the moment at which e must be 0.
 template <typename Number>
 SideRules ConstraintSolver<Number>::sides_at(const Worker& worker) const {
     if (!problem_.rules || outer_.changing_sides.empty()) return problem_.sides;
@@ -128,7 +127,8 @@ void ConstraintSolver<Number>::fill_halo_of_unknown(Worker& worker, bool is_line
     worker.team.barrier();
 }
 
-/// Writes L of the plane `unknown`, whose rows have been written, to `result`.
+/// Applies L to the plane `unknown` and writes the result to `result`. All threads must already
+/// have written their rows of `unknown`.
 template <typename Number>
 void ConstraintSolver<Number>::apply_linear(Worker& worker, Field& result) {
     fill_halo_of_unknown(worker, true);
@@ -142,7 +142,7 @@ void ConstraintSolver<Number>::apply_linear(Worker& worker, Field& result) {
     });
 }
 
-/// The sum of the products in all cells, by the same tree of sums for any number of threads.
+/// The sum of a · b over all cells, added in the same tree for any number of threads.
 template <typename Number>
 double ConstraintSolver<Number>::dot(Worker& worker, const Field& a, const Field& b) {
     std::vector<double>& sums = row_sums_[worker.next_sum++ % sums_in_use];
@@ -214,7 +214,7 @@ void ConstraintSolver<Number>::respond(Worker& worker, const Value& value) {
     apply_linear(worker, image_);
 }
 
-/// Finds the preconditioner of linked cells, and whether L of a constant is 0. For operators of
+/// Finds the preconditioner of linked cells. Returns whether L of a constant is 0. For operators of
 /// derivatives, L of a constant is computed exactly.
 template <typename Number>
 bool ConstraintSolver<Number>::probe(Worker& worker) {

@@ -76,7 +76,8 @@ private:
     std::vector<double> row_sums_[sums_in_use];
     std::optional<StencilInverse<Number>> stencil_;  ///< The preconditioner on grids.
     std::unique_ptr<LinkedLaplacian> laplacian_;     ///< The preconditioner on linked cells.
-    double factor_ = 0;  ///< The factor of the Laplacian; 0 if it is not used as a preconditioner.
+    /// The factor a of the Laplacian; 0 if the Laplacian is not the preconditioner.
+    double factor_ = 0;
 };
 
 extern template class ConstraintSolver<float>;

@@ -1,7 +1,8 @@
 // Transforms turn rows of real numbers into rows of complex waves. Columns along y and z are then
-// transformed in place, sixteen elements at a time, for any number of threads. On the last axis,
-// waves are multiplied by the waves of the weights. The inverse transforms lead back. Along an axis
-// whose sides are not periodic, zeros after the cells separate the two ends.
+// transformed in place. On the last axis, waves are multiplied by the waves of the weights. Inverse
+// transforms then turn waves into real numbers. Columns are transformed sixteen elements at a time,
+// whatever the number of threads, so that results do not depend on that number. Along an axis whose
+// sides are not periodic, zeros after the cells separate the two ends.
 #include "solvers/convolution.h"
 
 #include "solvers/fftw_transform.h"
@@ -16,7 +17,8 @@
 namespace cascade {
 namespace {
 
-constexpr std::int64_t columns_of_block = 8;  ///< In complex waves.
+/// The number of columns transformed at a time, in complex waves.
+constexpr std::int64_t columns_of_block = 8;
 
 struct Extent {
     std::int64_t cells = 1;
@@ -29,7 +31,7 @@ std::array<Extent, 3> extents_of(const Grid& grid) {
              {grid.depth, grid.boundary.z == Boundary::periodic}}};
 }
 
-/// The range of lags along an axis.
+/// The smallest and the largest lag along an axis.
 std::pair<std::int64_t, std::int64_t> lags_along(const Extent& axis, double spacing,
                                                  std::optional<double> reach) {
     if (axis.cells == 1) return {0, 0};
@@ -49,8 +51,8 @@ std::int64_t wrapped(std::int64_t n, std::int64_t period) {
     return rest < 0 ? rest + period : rest;
 }
 
-/// The least number, from `least` on, without prime factors above 7. Transforms of such sizes are
-/// fast.
+/// The smallest number that is at least `least` and has no prime factor above 7. Transforms of such
+/// sizes are fast.
 std::int64_t fast_size(std::int64_t least) {
     for (std::int64_t size = least;; ++size) {
         std::int64_t rest = size;
@@ -105,7 +107,7 @@ struct ConvolutionRunner<Number>::Implementation {
         if (!is_direct) prepare(weighted);
     }
 
-    // The direct sum.
+    // Computes sums directly.
 
     void add(Number* sums, const Number* row, std::int64_t by, Number weight) const {
         const std::int64_t width = layout.width;
@@ -120,7 +122,7 @@ struct ConvolutionRunner<Number>::Implementation {
         add_range(width - shift, width, shift - width);
     }
 
-    /// The number of a row or slice at this lag; nullopt if it is beyond a side.
+    /// The row or slice number `at`, wrapped into a periodic axis; nullopt if it is beyond a side.
     std::optional<std::int64_t> place(std::size_t axis, std::int64_t at) const {
         const Extent& extent = axes[axis];
         if (extent.is_periodic) return wrapped(at, extent.cells);
@@ -140,7 +142,7 @@ struct ConvolutionRunner<Number>::Implementation {
         }
     }
 
-    // The sum by transforms.
+    // Computes sums by transforms.
 
     void prepare(const WeightedLags& weighted) {
         std::array<std::int64_t, 3> farthest{};
@@ -297,9 +299,9 @@ struct ConvolutionRunner<Number>::Implementation {
     std::array<Extent, 3> axes;
     WeightedLags direct;
     bool is_direct = false;
-    std::array<std::int64_t, 3> size{1, 1, 1};  ///< Size of the transforms.
+    std::array<std::int64_t, 3> size{1, 1, 1};  ///< The size of the transforms along each axis.
     std::int64_t blocks = 0;                    ///< Number of blocks of columns in a row of waves.
-    std::int64_t stride = 0;                    ///< Distance between rows, in waves.
+    std::int64_t stride = 0;                    ///< The distance between rows, in waves.
     Buffer buffer, kernel;
     Transform there, back;
     std::array<Transform, 3> forward, backward;

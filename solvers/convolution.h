@@ -14,7 +14,7 @@
 
 namespace cascade {
 
-/// The offset from one cell to another: numbers of cells along each axis.
+/// The offset from one cell to another, in cells along each axis.
 struct Lag {
     std::int64_t x = 0, y = 0, z = 0;
     friend bool operator==(const Lag&, const Lag&) = default;
@@ -23,15 +23,15 @@ struct Lag {
 /// The largest number of lags that a convolution may have.
 inline constexpr std::int64_t most_lags = std::int64_t{1} << 24;
 
-/// The number of lags in the bounding box of lags_within(), or a number above most_lags if there
-/// are more.
+/// The number of lags in the bounding box of lags_within(). If there are more than most_lags,
+/// returns some number above most_lags.
 std::int64_t lags_in_box(const Grid& grid, std::optional<double> reach);
 
-/// The lags up to a distance `reach` in the unit of Grid::spacing, in order of z, y and x. Along an
-/// axis whose sides are not periodic, lags are limited to the extent of the grid. Along a periodic
-/// axis, they wrap around as often as the reach requires. Without a reach, a periodic axis has one
-/// lag for each of its cells: the shortest lag that leads to the cell, and the positive lag if two
-/// are equally short. nullopt if there would be more than most_lags.
+/// The lags of length at most `reach`, in order of z, y and x. `reach` has the unit of
+/// Grid::spacing. Along an axis whose sides are not periodic, lags are limited to the extent of the
+/// grid. Along a periodic axis, they wrap around as often as the reach requires. Without a reach, a
+/// periodic axis has one lag for each of its cells: the shortest lag that leads to the cell, and
+/// the positive lag if two are equally short. nullopt if there would be more than most_lags.
 std::optional<std::vector<Lag>> lags_within(const Grid& grid, std::optional<double> reach);
 
 /// A weighted sum over the cells at `lags`.
@@ -41,7 +41,7 @@ struct WeightedLags {
     friend bool operator==(const WeightedLags&, const WeightedLags&) = default;
 };
 
-/// Up to this number of lags, sums are computed directly. For more lags, transforms are faster.
+/// For at most this many lags, sums are computed directly. For more lags, transforms are faster.
 inline constexpr std::size_t most_direct_lags = 32;
 
 template <typename Number>

@@ -1,6 +1,6 @@
 // Compares the step with the trapezoidal rule: the error is the mean of the rates at both ends
-// times the step, minus the change of the step. etdrk4 estimates the error in its last filter, and
-// ros2 in its last equations.
+// times the step, minus the change of the step. For etdrk4 the last filter gives the error, and for
+// ros2 the last sweep.
 #include "solvers/error_estimate.h"
 
 #include "solvers/rosenbrock.h"
@@ -15,8 +15,8 @@ namespace {
 using Source = SweepTerm::Source;
 using Weight = SweepTerm::Weight;
 
-/// Inputs: the new step, the old step and the rates at the old step. Outputs: the error and the
-/// rates at the new step.
+/// The sweep that computes the error. Inputs: the new step, the old step and the rates at the old
+/// step. Outputs: the error and the rates at the new step.
 SweepForm error_form() {
     SweepForm form;
     form.inputs = 3;
@@ -51,7 +51,8 @@ void read_first_rates(Scheme& scheme, RegisterId first_rate) {
     scheme.forms[first.form] = std::move(form);
 }
 
-/// The filter writes the error per unit of time, and the sweep multiplies it by the step.
+/// Adds the error that the scheme's last filter finds. The filter writes the error per unit of
+/// time, and an added sweep multiplies this by the step.
 Scheme with_error_of_filter(Scheme scheme) {
     const RegisterId error = scheme.add_register();
     scheme.error_register = error;

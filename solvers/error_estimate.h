@@ -22,7 +22,7 @@ namespace cascade {
 /// defines e.
 ///
 /// The rates at `new` are the first rates of the next step, which reuses them. So the estimate
-/// costs a sweep, but no further evaluation of the rates, and three more registers (one for
+/// costs a sweep, but no further evaluation of the rates, and three more registers (only one for
 /// `etdrk4` and `ros2`). e is 0 where a value is frozen or held at a bound.
 Scheme with_error_estimate(Scheme scheme);
 

@@ -58,7 +58,7 @@ void find_phi(const std::vector<Number>& damping, Number* __restrict phi1, Numbe
     }
 }
 
-/// A line of waves. `parts` is the number of elements of each wave.
+/// A line of waves. A wave has `parts` elements.
 template <typename Number>
 struct Line {
     Number* rate;
@@ -74,7 +74,7 @@ void take_stage(const Line<Number>& at, const std::vector<Number>& damping, Wave
     const Number* const x = damping.data();
     const auto for_waves = [&](const auto& act) {
         for (std::ptrdiff_t n = 0; n < count; ++n) {
-            // For half a step. e is exp(z/2).
+            // The functions at z/2, with e = exp(z/2).
             const Number p1 = at.phi1[n], p2 = at.phi2[n], e = 1 - x[n] / 2 * p1;
             for (int c = 0; c < parts; ++c) act(n, n * parts + c, p1, p2, e);
         }

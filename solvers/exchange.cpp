@@ -10,7 +10,7 @@
 namespace cascade {
 namespace {
 
-/// Copies rows with their halo columns to the rows from `first` on.
+/// Copies `rows` of a plane, with their halo columns, to the rows of `to` that begin at `first`.
 void copy_rows(const Field& from, RowRange rows, Field& to, std::int64_t first) {
     if (rows.empty()) return;
     const std::span<const std::byte> source = memory_of(from, rows);

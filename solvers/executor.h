@@ -32,7 +32,7 @@ namespace cascade {
 /// the kept copy.
 struct CopyRoles {
     static constexpr int none = -1;
-    int kept = 0;  ///< `none` if there are two copies.
+    int kept = 0;  ///< The index of the kept copy; `none` if there are two copies.
     int current = 0;
     int last = 1;  ///< The previous current copy, which is probably still in the cache.
 
@@ -54,7 +54,7 @@ struct CopyRoles {
 /// A pass of a step, and the roles of the copies when the step begins.
 struct StepPass {
     std::size_t pass = 0;
-    std::int64_t complete = 0;  ///< Complete steps before the pass.
+    std::int64_t complete = 0;  ///< The number of complete steps before the pass.
     CopyRoles roles;
 };
 
@@ -73,8 +73,8 @@ public:
     Executor& operator=(const Executor&) = delete;
 
     virtual const StepProblem& problem() const = 0;
-    /// How the executor agrees with executors in other processes that share the steps; null if
-    /// there are none.
+    /// The means by which executors in several processes agree on the steps that they share; null
+    /// if only this process takes the steps.
     virtual SharedSteps* shared_steps() { return nullptr; }
     /// From now on runs the passes of this problem, which must have the same grid and species as
     /// the previous one. Makes the registers that the problem needs. The problem must outlive its
@@ -122,7 +122,7 @@ public:
     /// The largest number of passes that run together while their values are in a cache or, in a
     /// part of a grid, between two exchanges of halos.
     virtual int levels() const = 0;
-    /// How steps go through memory; see Stepping.
+    /// How steps use the caches; see Stepping.
     virtual Stepping stepping() const = 0;
 };
 
@@ -145,10 +145,10 @@ std::unique_ptr<Executor> make_part_executor(const StepProblem& problem, std::ve
                                              int most_threads, bool keeps, Exchange& others);
 
 /// Divides the grid into `count` parts of nearly equal size, or fewer if there are fewer rows or
-/// slices. Each has a separate thread and separate memory. One part computes convolutions,
-/// constraints and filters of waves on planes that it gathers. Parts are at least `thickness` times
-/// as thick as their halos; see levels_of_halo(). Serves to test that the result is the same bit
-/// for bit with any number of parts.
+/// slices. Each part has a separate thread and separate memory. One part gathers whole planes and
+/// computes convolutions, constraints and filters of waves on them. Parts are at least `thickness`
+/// times as thick as their halos; see levels_of_halo(). Serves to test that the result is the same
+/// bit for bit with any number of parts.
 MakeExecutor in_parts(int count, std::int64_t thickness = least_thickness);
 
 }  // namespace cascade

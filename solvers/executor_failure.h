@@ -9,8 +9,8 @@
 
 namespace cascade {
 
-/// Thrown by an executor whose device fails, for example because it was lost. Values that nobody
-/// has fetched are then lost, too.
+/// Thrown by an executor whose device fails, for example because the connection to the device was
+/// lost. Values that are only on the device are lost, too.
 struct ExecutorFailure : std::exception {
     explicit ExecutorFailure(Failure why) : failure(std::move(why)) {}
     const char* what() const noexcept override { return failure.message.c_str(); }
@@ -18,8 +18,8 @@ struct ExecutorFailure : std::exception {
     Failure failure;
 };
 
-/// Calls `work`. Returns the failure if an executor could not continue; else nothing. Where there
-/// are no exceptions, as in WebAssembly, executors do not fail.
+/// Calls `work`. Returns the failure if an executor could not continue, otherwise nullopt. On
+/// targets without exceptions, such as WebAssembly, executors do not fail.
 template <typename Work>
 std::optional<Failure> failure_in(const Work& work) {
 #ifdef __cpp_exceptions

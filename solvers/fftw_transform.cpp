@@ -1,4 +1,4 @@
-// FFTW's functions are looked up by name at first use, in the library for the precision.
+// FFTW's functions are looked up by name at first use, in FFTW's library for the precision in use.
 #include "solvers/fftw_transform.h"
 
 #include "core/check.h"

@@ -14,8 +14,8 @@ namespace cascade {
 template <typename Number>
 class FftwTransform {
 public:
-    /// The layout of lines: the numbers of elements from one number to the next, and from one line
-    /// to the next.
+    /// The layout of lines: the number of elements from one number of a line to the next, and from
+    /// one line to the next.
     struct Lines {
         Number* at;
         std::int64_t stride, distance;
@@ -29,7 +29,7 @@ public:
 
     FftwTransform() = default;
     /// Plans `count` lines of `cells` numbers each. `direction` is FFTW's kind of a real transform
-    /// or the sign of a complex one. Neither reads nor writes the lines.
+    /// or the sign of a complex one. Planning neither reads nor writes the lines.
     FftwTransform(Kind kind, int direction, std::int64_t cells, std::int64_t count,
                   const Lines& from, const Lines& to);
     FftwTransform(FftwTransform&& other) noexcept;

@@ -33,12 +33,13 @@ template <typename Value>
 template <typename Number>
 struct Row {
     const Number* cells;
-    const Number* subtracted;    ///< May be null.
-    const std::uint8_t* counts;  ///< Only cells where this is not 0 count; null: all.
+    const Number* subtracted;  ///< May be null.
+    /// Only cells where this is not 0 count. If null, all cells count.
+    const std::uint8_t* counts;
     std::int64_t width;
 
-    /// Calls `use(value, counts)` with two functions of the cell: its value, and whether it counts.
-    /// The kind of row is tested here, outside of loops.
+    /// Calls `use(value, counts)` with two functions of a cell's index: the cell's value, and
+    /// whether the cell counts. The kind of row is tested here, outside of loops.
     template <typename Use>
     [[gnu::always_inline]] auto visit(Use use) const {
         const auto with_counts = [&](auto value) __attribute__((always_inline)) {
@@ -77,7 +78,7 @@ WITH_WIDE_VECTORS double squares_about(const Row<double>& row, double mean) {
     return squares_of(row, mean);
 }
 
-/// The root of the mean of (value − mean)², where `row_at(row)` is a Row.
+/// The root of the mean of (value − mean)² over all cells. `row_at(row)` gives each Row.
 template <typename RowAt>
 double root_mean_square_about(double mean, const PlaneLayout& layout, RowAt row_at) {
     double squares = 0, cells = 0;
@@ -161,7 +162,8 @@ double sum_of_squares(const Field& field, std::int64_t row, std::int64_t cells) 
         const std::int64_t width = plane.layout().width;
         const auto* const values = plane.row(row);
         if (cells >= width) return sum_of_squares(values, width);
-        // Adds zeros for the other cells, so that numbers are added in the order of a whole row.
+        // Adds zeros for the cells beyond `cells`, so that numbers are added in the order of a
+        // whole row.
         return sum(width,
                    [&](std::int64_t i) { return i < cells ? double{values[i]} * values[i] : 0.0; });
     });

@@ -9,10 +9,11 @@
 
 namespace cascade {
 
-// In all functions, `inside` is a mask: only cells where it is not 0 count. If it is null, all
-// cells count.
+// In all functions, `inside` is a mask. Only cells where the mask is not 0 count. Without a mask
+// (nullptr), all cells count.
 
-/// The number of cells in a row that a mask includes; `width` without a mask (nullptr).
+/// The number of cells in a row that count. `counts` is the row's mask, or null if all `width`
+/// cells count.
 std::int64_t cells_that_count(const std::uint8_t* counts, std::int64_t width);
 
 /// Mean and deviation of a field's cells.

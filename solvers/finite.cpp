@@ -35,12 +35,12 @@ bool row_is_finite(const double* row, std::int64_t width) {
 
 namespace {
 
-/// Numbers added at once: one vector of the widest kind, or a few narrower vectors.
+/// Sums of several numbers at a time: one vector of the widest kind, or a few narrower vectors.
 template <typename Number>
 struct Lanes {
     typedef Number Vector [[gnu::vector_size(64)]];
     static constexpr std::int64_t count = 64 / sizeof(Number);
-    /// `even` and `odd` are independent sums, so neither waits for the other.
+    /// `even` and `odd` are independent sums, so the processor can compute both at the same time.
     Vector even{}, odd{}, last{};
 };
 

@@ -9,7 +9,7 @@
 
 namespace cascade {
 
-/// A cell by column, row and slice.
+/// The place of a cell: its column, row and slice.
 struct CellPlace {
     std::int64_t column = 0, row = 0, slice = 0;
     friend bool operator==(const CellPlace&, const CellPlace&) = default;

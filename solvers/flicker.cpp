@@ -12,7 +12,7 @@
 namespace cascade {
 namespace {
 
-/// A change whose size falls below this fraction of the previous one is dying out.
+/// A change whose size is below this fraction of the previous change is dying out.
 constexpr double lasting = 0.95;
 
 /// The changes of a row of cells in two steps.
@@ -74,7 +74,7 @@ void FlickerWatch::compare(Species& seen, const Field& now) const {
             const std::uint8_t* const counts = inside_ != nullptr ? inside_->row(row) : nullptr;
             std::uint8_t* const steady = seen.steady.row(row);
             seen.cells += static_cast<double>(cells_that_count(counts, layout.width));
-            // A quick test for rows without any undone change, which are most rows in most runs.
+            // A quick test. In most runs, most rows have no undone change.
             if (undone_in(changes, layout.width, least) == 0) {
                 std::fill_n(steady, layout.width, std::uint8_t{0});
                 continue;

@@ -1,4 +1,4 @@
-// Encloses the use of Eigen: no other file in solvers/ includes it.
+// Contains all uses of Eigen in solvers/: no other file there includes it.
 #include "solvers/linked_laplacian.h"
 
 #include <Eigen/SparseCholesky>
@@ -66,7 +66,7 @@ struct LinkedLaplacian::Factors {
 
 LinkedLaplacian::LinkedLaplacian(const Links& links, const PlaneLayout& layout, const Field* areas)
     : links_(links), layout_(layout), factors_(std::make_unique<Factors>()) {
-    // For each element, its index in `elements`; −1 for cells left out.
+    // The index of each element in `elements`; −1 for cells left out.
     std::vector<Eigen::Index> unknowns;
     std::vector<double> roots;
     for (std::int64_t row = 0; row < layout.row_count(); ++row) {

@@ -1,4 +1,4 @@
-// Preconditioning by the inverse of a Laplacian of linked cells minus a number.
+// Preconditions by the inverse of Δ − s, the Laplacian of linked cells minus a number.
 #pragma once
 
 #include "core/links.h"
@@ -27,9 +27,10 @@ public:
     template <typename Number>
     void apply(const Number* u, Number* result, RowRange rows) const;
 
-    /// Factorises Δ − s for s ≥ 0, unless the last call had the same s. For s = 0, uses a number
-    /// that is small compared to every eigenvalue of −Δ except the smallest, which is 0. Returns
-    /// false on failure, which is possible if links have weights below 0. Throws std::bad_alloc.
+    /// Factorises Δ − s for s ≥ 0, unless the last call had the same s. In place of s = 0, uses a
+    /// number that is small compared to every eigenvalue of −Δ except the smallest, which is 0.
+    /// Returns false on failure, which is possible if links have weights below 0. Throws
+    /// std::bad_alloc.
     bool factorise(double s);
     /// Solves for f with the s of the last factorise(). Writes u, and 0 in cells that are left out.
     /// If s is 0, subtracts the area-weighted means of f and u.

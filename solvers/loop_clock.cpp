@@ -7,7 +7,7 @@
 namespace cascade {
 namespace {
 
-/// The rounding error of sums of time, in steps.
+/// The largest rounding error of a sum of times, in steps.
 constexpr double rounding_of_time = 1e-6;
 
 std::int64_t next_multiple(std::int64_t step, std::int64_t of) { return (step / of + 1) * of; }
@@ -74,7 +74,7 @@ std::int64_t LoopClock::next_check() {
     return step + 1;
 }
 
-/// The whole steps that fit before the next end, up to rounding.
+/// The number of whole steps that fit before the next end, up to rounding.
 std::int64_t LoopClock::whole_steps_left() const {
     const double end = next_end();
     if (!std::isfinite(end)) return std::numeric_limits<std::int64_t>::max();
@@ -82,7 +82,7 @@ std::int64_t LoopClock::whole_steps_left() const {
     return static_cast<std::int64_t>(std::min(std::floor(steps + rounding_of_time), 1e18));
 }
 
-/// The whole steps before the next moment, at least one.
+/// The number of whole steps before the next moment, at least one.
 std::int64_t LoopClock::steps_before_moment() const {
     const double steps = (schedule_.next_moment(now()) - now()) / time.clock.step;
     return static_cast<std::int64_t>(std::clamp(std::floor(steps + rounding_of_time), 1.0, 1e9));

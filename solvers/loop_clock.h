@@ -18,11 +18,11 @@ public:
 
     double now() const { return time.clock.at(step); }
     void set_step(double length) { time.clock.set_step(step, length); }
-    /// Continues from this step. Observations at marks before this step count as done.
+    /// Continues from the present step. Observations at marks before this step count as done.
     void go_on();
 
     bool has_end_time() const { return std::isfinite(schedule_.end_time); }
-    /// The next time at which a step must end; infinity if there is none.
+    /// The next time at which a step must end; infinity if no end is set.
     double next_end() const;
     bool is_over() const;
     /// Whether the loop has reached the end of the schedule.
@@ -34,10 +34,10 @@ public:
     bool is_judging() const { return schedule_.tolerance > 0; }
     /// Whether the error of the next step is estimated.
     bool judges_next() const;
-    /// The next step after which values are checked. Does not depend on the last step of the
+    /// The step after which values are checked next. Does not depend on the last step of the
     /// present call. Pictures and ends of stages always follow a check. Steps change their length
-    /// only after a check, so that the steps since the last check can be repeated. A last step that
-    /// would pass the end is shortened.
+    /// only after a check, so that the steps since the last check can be repeated. If the next step
+    /// would pass the end, it is shortened.
     std::int64_t next_check();
     /// Whether the present step must be observed. Must be called once for each step.
     bool observation_due();

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double batch_seconds = 0.02, patient_seconds = 0.5;
 constexpr std::chrono::milliseconds between_reports{100};
-constexpr std::size_t most_samples = 21;  // Reports of two seconds.
+constexpr std::size_t most_samples = 21;  // Enough for about two seconds.
 
 }  // namespace
 

@@ -1,5 +1,5 @@
-// The speed of a run. Gives sizes of batches with which the run responds quickly, and the rate and
-// remaining time for the user.
+// Measures the speed of a run. Gives the size of batches with which the run responds quickly, and
+// the rate and the remaining time for the user.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace cascade {
 
-/// Callers pass in the time, so that a test can choose it.
+/// Callers pass in the time, so that tests can choose it.
 class Pace {
 public:
     using Time = std::chrono::steady_clock::time_point;
@@ -17,8 +17,8 @@ public:
     Pace(Time now, std::int64_t step);
 
     /// The number of steps to take before the clock and `cancel` are read again: about 20 ms of
-    /// work. The result is at least `wanted`, the number of steps that are fastest together, if so
-    /// many steps take at most half a second.
+    /// work. `wanted` is the number of steps that are fastest if taken together. If so many steps
+    /// take at most half a second, the result is at least `wanted`.
     std::int64_t batch(std::int64_t wanted = 1) const {
         return std::max(batch_, std::min(wanted, patient_batch_));
     }

@@ -1,4 +1,4 @@
-// Finds what hinders parts from computing several passes, and the planes that passes read.
+// Finds how many passes parts can compute between two exchanges, and the planes that passes read.
 #include "solvers/part_halos.h"
 
 #include "solvers/layers_in_memory.h"
@@ -10,8 +10,8 @@
 namespace cascade {
 namespace {
 
-/// With more passes between two exchanges, waiting for messages hardly becomes shorter, and both
-/// neighbours compute more layers.
+/// With more passes than this between two exchanges, the time spent waiting for messages would
+/// hardly fall, and neighbouring parts would compute more layers twice.
 constexpr std::int64_t enough_levels = 16;
 
 bool needs_whole_planes(const StepProblem::Pass& pass) {

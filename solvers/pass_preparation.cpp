@@ -1,6 +1,7 @@
-// Prepares the kernel of a pass: constraints, convolutions, aggregates and filters of waves. Each
-// thread adds up the aggregates of all rows itself. This takes one barrier instead of two. If the
-// grid is in parts, the root does the computations that need all cells, on whole planes.
+// Computes what must precede the kernel of a pass: constraints, convolutions, aggregates and
+// filters of waves. Each thread itself adds up the aggregates of all rows, which takes one barrier
+// instead of two. If the grid is in parts, the root does the computations that need all cells, on
+// whole planes.
 #include "solvers/constraint_solver.h"
 #include "solvers/pass_runner.h"
 #include "solvers/tiling.h"
@@ -13,7 +14,7 @@ namespace cascade {
 
 PlaneLayout layout_of(const StepProblem& problem, const Exchange* others) {
     if (others == nullptr) return PlaneLayout(problem.grid);
-    // Around these rows, planes have a halo of one more layer.
+    // Beyond these rows, planes have a halo of one more layer.
     const std::int64_t layers =
         problem.grid.linked ? others->levels() * rows_reached(problem) : others->levels() - 1;
     return PlaneLayout(problem.grid, with_neighbours(problem.grid, others->rows(), layers,
@@ -78,9 +79,8 @@ PassRunner::PassRunner(const StepProblem& problem, Exchange* others)
             const auto made = std::make_shared<ConvolutionRunner<Number>>(problem.grid, weights);
             return all.emplace_back(&weights, made).second;
         };
-        if (others != nullptr)
-            return;  // If the grid is in parts, only the runner of the whole grid needs these
-                     // helpers.
+        // If the grid is in parts, only the runner of the whole grid needs these helpers.
+        if (others != nullptr) return;
         for (const StepProblem::Pass& pass : problem.passes) {
             auto& solvers = helpers.solvers.emplace_back();
             for (const StepProblem::Solve& each : pass.solves) {
@@ -218,7 +218,8 @@ void PassRunner::solve(const Worker& worker, std::size_t pass_number, Team& team
     }
 }
 
-/// Fills the halos of results. Each halo is filled by the threads that wrote the rows beside it.
+/// Computes the convolutions of a pass and fills the halos of their results. Each halo is filled by
+/// the threads that wrote the rows beside it.
 template <typename Number>
 void PassRunner::convolve(const Worker& worker, std::size_t pass_number, Team& team,
                           Registers registers, const StepMoment& moment) {

@@ -91,7 +91,7 @@ void PassRunner::set_uniforms(std::vector<Number>& uniforms, const StepProblem::
             [&](Sweep::Coefficient by) {
                 value = static_cast<Number>(by.times_step ? by.value * moment.length : by.value);
             },
-            [](AggregateId) {},  // A reduction has set it.
+            [](AggregateId) {},  // The reduction has already set this uniform.
         };
         std::visit(set, uniform.value);
     }
@@ -220,7 +220,7 @@ void PassRunner::run_level(const Level<Number>& level, const Patch& cells) const
     }
 }
 
-/// Whether the kernel itself fills these columns of a result's halo.
+/// Whether the kernel itself fills the halo columns of a result.
 template <typename Number>
 bool PassRunner::has_copied_columns(const Level<Number>& level, std::size_t number) const {
     const auto& [rules, copied] = sides_[level.pass];

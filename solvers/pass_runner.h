@@ -26,9 +26,9 @@
 
 namespace cascade {
 
-/// The times at which a step begins and ends.
+/// The times at which a step begins and ends, and the flag that cancels it.
 struct StepMoment {
-    std::int64_t complete = 0;  ///< Steps taken before this one.
+    std::int64_t complete = 0;  ///< The number of steps taken before this one.
     double t = 0;               ///< The stage's time when the step begins.
     double length = 0;          ///< The time step.
     double next_t = 0;          ///< The stage's time when the next step begins.
@@ -42,16 +42,16 @@ struct StepMoment {
 /// The planes of every register, one per species, in the problem's precision.
 using Registers = std::span<const std::span<Field>>;
 
-/// Called for rows that a pass has just written, by the thread that wrote them, while they are in
-/// the cache. If the grid is cut along columns, any thread may call it.
+/// Called for rows that a pass has just written, while they are in the cache. The thread that wrote
+/// the rows calls it. If the grid is cut along columns, any thread may call it.
 using RowsWritten = std::function<void(RowRange)>;
 
 template <typename Number>
 class ConstraintSolver;
 
-/// The layout of a problem's planes in this process. They cover the whole grid or, if `others` is
-/// not null, a part of the grid and as many rows of other parts as Exchange::levels() passes read.
-/// On a periodic axis these rows may be beyond the grid.
+/// The layout of a problem's planes in this process. The planes cover the whole grid or, if
+/// `others` is not null, a part of the grid and as many rows of other parts as Exchange::levels()
+/// passes read. On a periodic axis these rows may be beyond the grid.
 PlaneLayout layout_of(const StepProblem& problem, const Exchange* others);
 
 class PassRunner {
@@ -65,10 +65,10 @@ public:
 
     /// How a pass runs as a level.
     struct LevelOptions {
-        /// Whether the pass will find the values that it reads in a near cache.
+        /// Whether the pass will find the values that it reads in the second-level cache.
         bool is_near = false;
         const RowsWritten* when_written = nullptr;  ///< May be null. Must outlive the level.
-        /// In a part of a grid: how many levels follow before halos are exchanged.
+        /// The number of levels that follow before halos are exchanged. Only for a part of a grid.
         std::int64_t followers = 0;
     };
     /// A pass with all data needed to run it on some rows.
@@ -88,7 +88,8 @@ public:
     template <typename Number>
     struct Arguments {
         std::vector<Level<Number>> levels;
-        /// The same levels for rows before and after a periodic grid. Empty if there are none.
+        /// The same levels for the rows before and after a periodic grid. Empty if no such rows are
+        /// computed.
         std::vector<Level<Number>> before, after;
         std::vector<std::vector<Number>>
             uniforms;  ///< The uniforms of each pass, with the latest values of aggregates.
@@ -99,8 +100,8 @@ public:
         int number = 0;  ///< The thread's number among the `count` threads in use.
         int count = 1;
         RowRange rows;  ///< This thread's rows.
-        Patch cells;    ///< This thread's cells. All threads have nearly equal shares even if the
-                        ///< grid has few rows.
+        /// This thread's cells. All threads have nearly equal shares even if the grid has few rows.
+        Patch cells;
         std::vector<DiffusionSymbol> symbols;
         std::variant<Arguments<float>, Arguments<double>> arguments;
         std::vector<double> row_values;
@@ -133,16 +134,16 @@ public:
     // written their rows.
 
     bool is_part() const { return others_ != nullptr; }
-    /// Adds the planes that a pass reads with these registers.
+    /// Adds to `reads` the planes that a pass reads if it runs on these registers.
     void add_reads(std::size_t pass, Registers registers, HaloReads& reads);
     /// Fills the halos of planes that the next levels read.
     void share_reads(const HaloReads& reads) const;
     /// Fills the halos beyond the sides of the grid for a moment.
     void fill_sides(std::span<Field> species, SideMoment moment) const;
 
-    /// Fills the halos of all results of a pass from other parts.
+    /// Fills the halos of all results of a pass with values from other parts.
     void share_results(std::size_t pass, Registers registers);
-    /// Fills the halos of all species of one register from other parts.
+    /// Fills the halos of all species of one register with values from other parts.
     void share_species(std::span<Field> species) const;
 
     const StepProblem& problem() const { return problem_; }
@@ -150,8 +151,8 @@ public:
     const PlaneLayout& layout() const { return layout_; }
 
 private:
-    /// The cells whose values a kernel copies to the halo columns; nullopt if the rule of a side
-    /// gives a value.
+    /// The cells whose values a kernel copies to the halo columns; nullopt if the rule at one of
+    /// the sides prescribes a value.
     static std::optional<HaloColumns> copied_columns(const SideRules& sides, std::int64_t width);
     /// Whole planes, on which the root of all parts does the computations that need all cells.
     struct WholeGrid;
@@ -198,27 +199,29 @@ private:
     Exchange* others_;
     std::unique_ptr<WholeGrid> whole_;  ///< Null until it is needed.
     PlaneLayout layout_;
-    RowRange rows_;       ///< This part's own rows.
-    bool wraps_ = false;  ///< Whether this is a part of a grid that is periodic from part to part.
+    RowRange rows_;  ///< This part's own rows.
+    /// Whether this is a part of a grid whose first and last part are neighbours.
+    bool wraps_ = false;
     std::int64_t reach_ = 1;  ///< The number of rows or slices that a pass reaches.
-    /// Objects that passes need besides kernels.
+    /// The objects that passes need besides kernels.
     template <typename Number>
     struct Helpers {
-        /// Empty unless the problem has filters of waves, which need its diffusion.
+        /// The filters of waves. nullopt if the problem has no such filters.
         std::optional<WaveFilter<Number>> waves;
-        /// By pass and convolution of the pass. Equal convolutions share a runner.
+        /// The runners by pass, one for each convolution of the pass. Equal convolutions share a
+        /// runner.
         std::vector<std::vector<std::shared_ptr<ConvolutionRunner<Number>>>> convolutions;
         /// The solvers by pass, one for each constraint of the pass.
         std::vector<std::vector<std::unique_ptr<ConstraintSolver<Number>>>> solvers;
     };
     std::variant<Helpers<float>, Helpers<double>> helpers_;
     struct PassSides {
-        std::vector<SideRules> rules;       ///< Per result: the rules before any side changes.
+        std::vector<SideRules> rules;       ///< The rules of each result before any side changes.
         std::optional<HaloColumns> copied;  ///< The columns that a kernel copies to the halo.
     };
     std::vector<PassSides> sides_;  ///< One per pass.
     IdVector<TemporaryId, Field> temporaries_;
-    /// For each aggregate: one value per row.
+    /// One value per row for each aggregate.
     IdVector<AggregateId, std::vector<double>> row_values_;
 };
 

@@ -15,10 +15,10 @@ namespace cascade {
 ///
 /// The method is of second order for any matrix J (a W-method), and L-stable for the part of the
 /// rates whose derivatives are in J. Here J has the derivatives within each cell, so that the
-/// equations of cells are independent and diffusion is explicit, as in Heun's method. Like in H. H.
+/// equations of cells are independent and diffusion is explicit, as in Heun's method. As in H. H.
 /// Rosenbrock's own methods (The Computer Journal 5, 1963), J is evaluated at old for k1 and at old
-/// + h k1 for k2. The difference between the two is of order h and does not affect the method's
-/// order, and J shares subexpressions with the rates at the same point.
+/// + h k1 for k2. The two matrices differ by a term of order h, which does not affect the method's
+/// order. J shares subexpressions with the rates at the same point.
 Scheme ros2();
 
 /// ros2() with an estimate of its error: h/2 (k1 + k2), which is the difference between the new

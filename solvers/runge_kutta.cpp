@@ -17,7 +17,7 @@ namespace {
 using Source = SweepTerm::Source;
 using Weight = SweepTerm::Weight;
 
-/// Step · `weight` times the rate that the sweep evaluates.
+/// The term step · `weight` · rate, for the rate that the sweep evaluates.
 SweepTerm own_rate(SweepForm& form, Sweep& sweep, double weight) {
     sweep.coefficients.push_back({weight, true});
     return {Source::rate, 0, Weight::coefficient, form.coefficients++};
@@ -33,7 +33,8 @@ double time_of(const std::vector<double>& row) {
     return std::accumulate(row.begin(), row.end(), 0.0);
 }
 
-/// A scheme with each stage in a register. Differences from the old step replace rates.
+/// A scheme that stores each stage in a register. Differences of stages from the old step replace
+/// rates.
 class StateScheme {
 public:
     explicit StateScheme(const ButcherTableau& tableau) : tableau_(tableau) {}
@@ -46,8 +47,8 @@ public:
     }
 
 private:
-    /// Stage 0 is the old step. The stage after the last is the new step. It overwrites stage 1
-    /// cell by cell, unless rates are evaluated at the new step.
+    /// The register of a stage. Stage 0 is the old step. The stage after the last is the new step,
+    /// which overwrites stage 1 cell by cell unless rates are evaluated at the new step.
     RegisterId register_of(std::uint32_t stage) const {
         if (stage == 0) return old_register;
         if (stage == tableau_.b.size()) return new_register;
@@ -108,8 +109,8 @@ private:
     Scheme scheme_;
 };
 
-/// A scheme with each rate in a register, because the error is a small difference of large rates.
-/// The error includes the new step's rate, which is also the first rate of the next step.
+/// A scheme that stores each rate in a register, because the error is a small difference of large
+/// rates. The error includes the new step's rate, which is also the first rate of the next step.
 class EmbeddedScheme {
 public:
     explicit EmbeddedScheme(const ButcherTableau& tableau)
@@ -129,7 +130,7 @@ private:
         return stage == 0 ? old_register : state_registers_[stage % 2];
     }
 
-    /// The row that gives the state after a stage: the next stage or the new step.
+    /// The row of the tableau that gives the state after a stage: the next stage or the new step.
     const std::vector<double>& row_after(std::uint32_t stage) const {
         return stage + 1 < tableau_.b.size() ? tableau_.a[stage + 1] : tableau_.b;
     }
@@ -230,7 +231,7 @@ private:
     Scheme scheme_;
     /// Stages alternate between these two registers.
     std::array<RegisterId, 2> state_registers_{scheme_.add_register(), scheme_.add_register()};
-    /// By stage: the register of its rate; nullopt if the rate is not stored.
+    /// The register of each stage's rate; nullopt if the rate is not stored.
     std::vector<std::optional<RegisterId>> rate_register_;
 };
 

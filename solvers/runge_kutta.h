@@ -32,7 +32,7 @@ ButcherTableau bogacki_shampine();
 /// Equations I", second edition, Springer 1993, section II.6, as in their program DOPRI5.
 ButcherTableau dormand_prince();
 
-/// The sweeps of a tableau: one for each stage, and one for the error.
+/// Builds the scheme of a tableau: one sweep for each stage, and one for the error.
 Scheme explicit_runge_kutta(const ButcherTableau& tableau);
 
 }  // namespace cascade

@@ -32,7 +32,8 @@ using Keeper = std::function<void(std::int64_t step, double t, const TimeState& 
 struct StepChoice {
     double step = 0;                       ///< Length of the steps.
     const StepProblem* problem = nullptr;  ///< The passes of a step without an estimated error.
-    const StepProblem* judged = nullptr;  ///< The passes of a step with an estimated error, if any.
+    /// The passes of a step with an estimated error; null if there are no such steps.
+    const StepProblem* judged = nullptr;
 };
 /// Chooses the next steps from the present values, which are in the vector of species given to the
 /// loop, and from the `time` so far. May change any part of `time` except the clock and the
@@ -42,31 +43,33 @@ using StepChooser = std::function<StepChoice(std::int64_t step, TimeState& time,
 /// The steps to take, and how often to check and observe them.
 struct Schedule {
     std::int64_t first_step = 0;  ///< Number of complete steps so far (more than 0 after a resume).
-    std::int64_t last_step = 0;   ///< Stop when this number of steps is complete.
-    /// The step up to which later calls will probably continue. If it is far ahead, longer trials
-    /// for speed are worth their cost.
+    std::int64_t last_step = 0;   ///< The loop stops when this number of steps is complete.
+    /// The step up to which later calls will probably continue. If that step is far ahead, longer
+    /// trials of threads and tilings are worth their cost.
     std::int64_t planned_step = 0;
     TimeState time = {};  ///< The time at `first_step`.
-    /// Stop when t reaches this. The last step is shortened to end there.
+    /// The loop stops when t reaches this time. The last step is shortened to end there.
     double end_time = std::numeric_limits<double>::infinity();
-    /// If above 0, a step ends at each multiple of this time. A step that would pass it is shorter.
+    /// If above 0, a step ends at each multiple of this time. A step that would pass a multiple is
+    /// shortened.
     double every = 0;
-    /// The length of all other steps, unless they are chosen.
+    /// The length of every step that is neither shortened nor chosen by `choose`.
     double fixed_step = 0;
     /// The interval of observations: `observe` is called at multiples of this number of steps. If
-    /// it is 0, `observe` is called at the first step that reaches each further mark. Marks are the
-    /// multiples of `every`, or else tenths of the end time.
+    /// the interval is 0, `observe` is called at the first step that reaches each further mark.
+    /// Marks are the multiples of `every` or, if `every` is 0, tenths of the end time.
     std::int64_t interval = 0;
     /// Returns the first moment to observe after t, or infinity. The loop observes at the last
-    /// complete step before that moment and at the step after it. It shortens no step to reach the
-    /// moment.
+    /// complete step before that moment and at the step after it. No step is shortened to end at
+    /// the moment.
     std::function<double(double t)> next_moment = {};
-    bool marks = false;      ///< Whether `observe` is called at marks as well if `interval` is
-                             ///< not 0.
-    std::int64_t check = 0;  ///< `ends` is called at multiples of this; 0: never.
+    bool marks = false;  ///< Whether `observe` is called at marks, too, if `interval` is not 0.
+    /// `ends` is called at multiples of this number of steps; never if it is 0.
+    std::int64_t check = 0;
     EndTest ends = {};
-    /// `choose` is called at multiples of this number of steps, including 0. With a tolerance, it
-    /// is called after every step with an estimated error instead.
+    /// `choose` is called at multiples of this number of steps, including 0. If there is a
+    /// tolerance, `choose` is called only after steps with an estimated error, and after each of
+    /// them.
     std::int64_t choose_every = 0;
     StepChooser choose = {};
     /// Set if the steps before `first_step` are unknown, for example if a run continues with other
@@ -83,7 +86,8 @@ struct Schedule {
     /// the next step begins, which is later by a rounding error.
     std::function<double(double t)> time_after = {};
     int error_order = 1;  ///< The error is proportional to the step to this power.
-    /// With a tolerance: the passes of a step with an estimated error, if not all steps have one.
+    /// The passes of a step with an estimated error. Set only if there is a tolerance and not every
+    /// step has an estimated error.
     const StepProblem* judged = nullptr;
     bool judges_all = false;        ///< Whether the error of every step is estimated.
     std::int64_t check_every = 64;  ///< Number of steps between two checks for non-finite values.
@@ -99,7 +103,7 @@ struct Schedule {
     Keeper keep = {};
     int threads = 1;
     MakeExecutor executor = make_thread_executor;  ///< Makes the executor of the steps.
-    /// The tiling to use. If empty, it is chosen by the sizes of caches and by measured times. No
+    /// The tiling to use. If it is nullopt, the sizes of caches and measured times decide. No
     /// result depends on the tiling.
     std::optional<Tiling> tiling = {};
     /// Gives the fastest tiling of earlier runs and receives the fastest tiling of this run; may be
@@ -107,13 +111,14 @@ struct Schedule {
     TilingMemory* tilings = nullptr;
 };
 
-/// The number of marks that t has reached: multiples of `every`, or if it is 0, tenths of the end
-/// time; 0 without either.
+/// The number of marks up to time t, inclusive. Marks are the multiples of `every` or, if `every`
+/// is 0, tenths of the end time. 0 if there is no end time either.
 double marks_reached(double t, double end_time, double every);
-/// The next multiple of `every`; infinity if it is 0.
+/// The next multiple of `every` after t; infinity if `every` is 0.
 double next_mark(double t, double every);
 
-/// Whether a copy of species with this grid and precision is within Schedule::most_kept_bytes.
+/// Whether a copy of all species, with this grid and precision, is at most as large as
+/// Schedule::most_kept_bytes.
 bool keeps_copy(const Schedule& schedule, std::size_t species, const Grid& grid,
                 Precision precision);
 

@@ -37,8 +37,8 @@ Scheme euler(bool by_item) {
     return scheme;
 }
 
-/// One sweep for each species, in order of writing. Each sweep reads the new values of earlier
-/// species.
+/// One sweep for each species, in the order in which they are written. Each sweep reads the new
+/// values of the species written before.
 Scheme symplectic(std::uint32_t species, bool by_item) {
     const Scheme whole = euler(by_item);
     Scheme scheme;
@@ -159,7 +159,7 @@ SweepForm rkl2_form(bool second) {
     return form;
 }
 
-/// L(Y₀) is stored in the register that follows the registers of the stages.
+/// Stores L(Y₀) in the register that follows the registers of the stages.
 Scheme rkl2(std::uint32_t stages) {
     Scheme scheme;
     scheme.registers = registers_of_parts;

@@ -10,10 +10,10 @@ namespace {
 using Source = SweepTerm::Source;
 using Weight = SweepTerm::Weight;
 
-/// c · change + old. The change is the second input.
+/// Computes c · change + old. The change is the second input.
 SweepForm sum_form() {
     SweepForm form;
-    // A filter spreads the changes of free cells into frozen ones, which must keep their values.
+    // A filter spreads the changes of free cells into frozen cells, which must keep their values.
     form.holds = true;
     form.inputs = 2;
     form.coefficients = 1;

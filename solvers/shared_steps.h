@@ -5,7 +5,7 @@
 
 namespace cascade {
 
-/// The decisions that a time loop makes by the clock before each batch of steps.
+/// The decisions, before each batch of steps, that a time loop bases on the clock.
 struct LoopDecision {
     std::int64_t steps = 0;     ///< The number of steps in the batch.
     bool is_looked_at = false;  ///< Whether the values after the batch are checked and observed.
@@ -18,7 +18,7 @@ public:
     virtual ~SharedSteps() = default;
 
     /// Called in all processes before a batch of steps. Returns the decision of the first process.
-    /// If the call sets the flag that cancels the run, it does so in all processes.
+    /// If the call sets the flag that cancels the run, it sets this flag in all processes.
     virtual LoopDecision agree(LoopDecision own) = 0;
 };
 

@@ -10,8 +10,8 @@ struct SolveReport {
     /// largest such quotient of all solutions.
     double largest_rest = 0;
     /// The mean of the constraint if its field is 0, divided by the constraint's root mean square:
-    /// the largest such quotient of all solutions. No field can balance this mean. Set only for
-    /// fields to which any constant may be added.
+    /// the largest such quotient of all solutions. No choice of the field removes this mean. Set
+    /// only for fields to which any constant may be added.
     double largest_mean = 0;
 };
 

@@ -22,7 +22,7 @@ std::int64_t replay(Stepper& stepper, std::int64_t last_finite, std::int64_t spo
         outcome.not_finite = find_not_finite(stepper.species(), spoiled, last_finite);
         return spoiled;
     }
-    // This remains the answer if the replay is abandoned.
+    // If the replay is abandoned, this is the outcome.
     outcome.not_finite = find_not_finite(stepper.species(), spoiled, last_finite);
     stepper.back();
     for (const Field& field : stepper.species()) outcome.last_checked.push_back(field.clone());

@@ -23,19 +23,19 @@
 namespace cascade {
 namespace {
 
-/// The error for diffusion on a plane is about 1 / (2 · iterations). Large grids get fewer
+/// The relative error for diffusion on a plane is about 1 / (2 · iterations). Large grids get fewer
 /// iterations, so that a user whose run has failed need not wait.
 constexpr std::size_t least_iterations = 16, most_iterations = 200;
 constexpr std::size_t entries_to_visit = 50'000'000;
 
-/// The largest change of a value in a difference, in units of its species' root mean square. It is
-/// near the cube root of the rounding error, where the truncation error and the rounding error of a
-/// central difference are equal.
+/// The largest change that a central difference makes to a value, in units of the root mean square
+/// of the value's species. This step is near the cube root of the relative rounding error, where
+/// the difference's truncation and rounding errors are equal.
 double difference_step(Precision precision) {
     return precision == Precision::single ? 0.005 : 6e-6;
 }
 
-using Vector = std::vector<double>;  ///< By species, row and column, without halo.
+using Vector = std::vector<double>;  ///< Numbers by species, row and column, without halo.
 
 double dot(const Vector& a, const Vector& b) {
     double sum = 0;
@@ -117,7 +117,8 @@ private:
         return static_cast<std::size_t>(layout_.width * layout_.row_count());
     }
 
-    /// Calls `visit(n, i, row)`: cell n is in column i of the row, counted through all slices.
+    /// Calls `visit(n, i, row)` for each cell: cell n is in column i of row `row`, and rows are
+    /// counted through all slices.
     template <typename Visit>
     void for_each_cell(Visit visit) const {
         std::size_t n = 0;
@@ -160,7 +161,7 @@ private:
             const double scaled_weight = weight / scales_[k];
             const Plane<Number>& rates = rates_of_[k].template plane<Number>();
             for_each_cell([&](std::size_t n, std::int64_t i, std::int64_t row) {
-                // A test instead of a product with the mask, because a frozen cell may have any
+                // Tests the mask instead of multiplying by it, because a frozen cell may have any
                 // rate, even an infinite one.
                 if (moves_.row(row)[i] != 0) entries[n] += scaled_weight * rates.row(row)[i];
             });
@@ -177,7 +178,7 @@ private:
     const StepProblem& rates_;
     PlaneLayout layout_;
     std::span<const Field> state_;
-    Mask moves_;  ///< 1 where a cell is not frozen.
+    Mask moves_;  ///< Is 1 where a cell is not frozen.
     std::vector<Field> moved_, rates_of_;
     std::vector<double> scales_;
     Team team_;
@@ -200,7 +201,7 @@ std::complex<double> leading_root(const Vector& w0, const Vector& w1, const Vect
     return p > 0 ? -p / 2 - root : -p / 2 + root;
 }
 
-/// The eigenvalue of J − shift of largest magnitude; 0 if the rates are not finite.
+/// The eigenvalue of largest magnitude of J − shift; 0 if the rates are not finite.
 std::complex<double> leading_eigenvalue(Jacobian& jacobian, double shift) {
     const std::size_t iterations =
         std::clamp(entries_to_visit / jacobian.size(), least_iterations, most_iterations);

@@ -16,9 +16,9 @@ struct StabilityEstimate {
     /// pair. 0 if the rates at the state are not finite.
     double eigenvalue = 0;
     /// The largest explicit Euler step that damps the fastest decaying mode: 2 / |λ| for the most
-    /// negative eigenvalue λ (−2 Re λ / |λ|² for a complex pair). Empty if no eigenvalue is
-    /// negative. If this is empty, or if the step in use is much shorter, the values grow for
-    /// another reason than the length of the step.
+    /// negative eigenvalue λ (−2 Re λ / |λ|² for a complex pair). nullopt if no eigenvalue is
+    /// negative. If this is nullopt, or if the step in use is much shorter, values grow for another
+    /// reason than the length of the step.
     std::optional<double> largest_speed;
 };
 
@@ -26,8 +26,8 @@ struct StabilityEstimate {
 /// has one result per species and the slots of a step. Cells marked by `frozen`, which may be null,
 /// do not change. Takes at most about 800 evaluations of the rates on one thread. For diffusion the
 /// error is at most 2 %, or 4 % with more than a million values. The result is the same in every
-/// run. Only useful at a state before values blow up: at values of 1e20 any reaction seems stiff.
-/// Abandons its work when `cancel`, which may be null, becomes true.
+/// run. Use it only at a state before values blow up, because at values of 1e20 any reaction seems
+/// stiff. Abandons its work when `cancel`, which may be null, becomes true.
 StabilityEstimate estimate_stability(const StepProblem& rates, std::span<const Field> species,
                                      const Mask* frozen = nullptr,
                                      const std::atomic<bool>* cancel = nullptr);

@@ -15,14 +15,14 @@ namespace {
 /// the same table in spec/time.md.
 constexpr double rise_of_a_formation = 3;
 
-/// If the progress never rose, the pattern existed when the stage began, or it is fading. Then it
-/// has settled if its speed would change it by at most this fraction of its contrast until the
-/// stage is twice as old. Noise that fades by diffusion may hide a growing pattern. The progress of
-/// such noise stays above 0.35 of its contrast.
+/// If the progress never rose, the pattern existed when the stage began, or it is fading. Such a
+/// pattern has settled if its present speed would change it by at most this fraction of its
+/// contrast until the stage is twice as old. Noise that fades by diffusion may hide a growing
+/// pattern. The progress of such noise stays above 0.35 of its contrast.
 constexpr double little_progress = 0.1;
 
-/// Part of the root mean square that is added to the contrast. The deviation of a flat field is
-/// only the rounding of its values.
+/// This fraction of the root mean square is added to the contrast, because the deviation of a flat
+/// field is only the rounding of its values.
 constexpr double least_deviation = 1e-6;
 
 double contrast(const Field& field, const Mask* inside) {
@@ -70,7 +70,7 @@ bool SteadyWatch::settled(std::span<const Field> species, double t, double toler
         const double speed = change.root_mean_square / interval;
         Formation& formation = formations_[k];
         observe(formation, change.deviation / interval, t);
-        // Tested last, because the contrast costs passes over the plane and is seldom needed.
+        // The contrast is tested last, because it costs passes over the plane and is seldom needed.
         all_settled =
             all_settled && speed <= tolerance * formation.speed &&
             (formation.risen || speed * t <= little_progress * contrast(species[k], inside));

@@ -8,7 +8,7 @@
 namespace cascade {
 namespace {
 
-/// The number of cells from one probe of the stencil to the next. Stencils reach three cells.
+/// The distance between probes of the stencil, in cells. Stencils reach at most three cells.
 constexpr std::int64_t between_probes = 7;
 
 }  // namespace
@@ -89,7 +89,8 @@ void StencilInverse<Number>::learn(const Number* response) {
     has_factors_ = has_factors_ && stencil_ == before;
 }
 
-/// The reciprocal of the stencil's symbol for each wave of a block, by line and wave.
+/// Writes to `factors`, by line and wave, the reciprocal of the stencil's symbol for each wave of a
+/// block.
 template <typename Number>
 void StencilInverse<Number>::find_factors(const WaveBlock<Number>& block, Number* factors) const {
     double size = 0;
@@ -108,8 +109,9 @@ void StencilInverse<Number>::find_factors(const WaveBlock<Number>& block, Number
     }
 }
 
-/// The stencil's weights by the distance along a block's axis. Weights across the axis are
-/// multiplied by cosines of the waves of a line, and summed. Weights at equal distances are added.
+/// The stencil's weights by distance along the block's axis, at least 0. Weights across the axis
+/// are multiplied by cosines of the waves of a line, and summed. Weights at equal distances are
+/// added.
 template <typename Number>
 std::vector<double> StencilInverse<Number>::weights_along(const WaveBlock<Number>& block,
                                                           std::int64_t line) const {

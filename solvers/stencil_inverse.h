@@ -60,7 +60,7 @@ private:
     WaveTransforms<Number> transforms_;
     std::array<int, 3> reach_{};
     std::vector<double> stencil_;  ///< The weights by offset, from −reach to reach along each axis.
-    Plane<Number> factors_;        ///< Per block of waves: the factors.
+    Plane<Number> factors_;        ///< The factors of the waves, block by block.
     bool has_factors_ = false;     ///< Whether `factors_` match the stencil.
 };
 

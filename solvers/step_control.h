@@ -4,9 +4,9 @@
 // stepsize selection in explicit Runge-Kutta methods", ACM Transactions on Mathematical Software
 // 17, 1991; constants of E. Hairer, G. Wanner, "Solving Ordinary Differential Equations II", 1996,
 // section IV.2): next = step · 0.9 · error^(−0.7/k) · previous error^(0.4/k), where k is the order
-// of the error estimate, limited to between a fifth and five times the step. After a step shorter
-// than step(), and after a rejected step, next = step · 0.9 · error^(−1/k). After a rejected step
-// it is at least a tenth of the step.
+// of the error estimate. The next step is limited to between a fifth and five times the step. After
+// a step shorter than step(), and after a rejected step, next = step · 0.9 · error^(−1/k). After a
+// rejected step the next one is at least a tenth of that step.
 #pragma once
 
 namespace cascade {
@@ -33,8 +33,8 @@ public:
     /// 1. Rejects NaN and infinity.
     bool judge(double taken, double error);
     /// Must be called after an accepted step that was cut to end at a mark. The small error of such
-    /// a step must not count as a trend, so the next step follows from `tried`, the state before
-    /// it.
+    /// a step must not count as a trend, so the next length follows from `tried`, the state before
+    /// that step.
     void forget_cut(const State& tried);
 
 private:

@@ -92,7 +92,7 @@ double StepLengths::wanted_step() const {
     return schedule_.longest_step ? std::min(wanted, schedule_.longest_step(clock_.now())) : wanted;
 }
 
-/// The shortest length. With shorter steps, a run would practically never end.
+/// The shortest length of a step. With shorter steps, a run would practically never end.
 double StepLengths::least_step() const {
     return 1e-10 * (clock_.has_end_time() ? schedule_.end_time : std::max(clock_.now(), 1.0));
 }
@@ -101,7 +101,7 @@ double StepLengths::least_step() const {
 bool StepLengths::fail_after(CopyRoles before, StageOutcome& outcome) {
     outcome.not_finite = find_not_finite(stepper_.species(), clock_.step + 1, clock_.step);
     stepper_.set_roles(before);
-    // If all values are finite, their rates are not.
+    // If all values are finite, the rates are not finite.
     if (!outcome.not_finite) {
         outcome.too_short = where_error_is_largest();
         return false;

@@ -1,4 +1,4 @@
-// Chooses the length of steps. Either the caller chooses from the present values, or a step is
+// Chooses the length of steps. Either the caller chooses it from the present values, or a step is
 // repeated with shorter lengths until its error is small enough.
 #pragma once
 
@@ -23,7 +23,8 @@ public:
     /// The time, and the state of the controller, from which steps continue.
     TimeState time() const;
 
-    /// Lets the caller choose the length of the next steps.
+    /// Lets the caller choose the length of the next steps. `rejected` says that the length chosen
+    /// last was too long.
     void choose(bool rejected = false);
     /// Tries shorter and shorter steps until the error of one is small enough, and takes that step.
     /// Rejected steps change no values. Returns false, with the reason in `outcome`, if steps have

@@ -34,13 +34,14 @@ private:
 /// The difference between two paths from one state.
 struct PathDifference {
     double coarse = 0, fine = 0;  ///< Lengths of the paths of long and of short steps.
-    double apart = 0;             ///< Distance of their ends, as a root mean square over the cells.
+    /// The distance between the ends of the two paths, as a root mean square over the cells.
+    double apart = 0;
 
     /// Whether the paths differ, that is: one path is more than twice as long as the other, or
     /// their ends are farther apart than half of the longer path. In addition, the longer path must
-    /// be at least a hundredth of the values. Steps that are short enough are far from this limit:
-    /// with steps three times as long, the path of an advected edge one cell wide is at most √3
-    /// times as long.
+    /// be at least a hundredth of the root mean square of the values. Steps that are short enough
+    /// are far from this limit: with steps three times as long, the path of an advected edge one
+    /// cell wide is at most √3 times as long.
     bool is_apart = false;
 };
 PathDifference difference(const StepPath& coarse, const StepPath& fine, std::size_t species,

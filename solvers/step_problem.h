@@ -32,7 +32,8 @@ struct StepProblem {
     using PlaneRef = std::variant<SpeciesPlane, TemporaryId, const Field*>;
 
     struct CompleteSteps {};  ///< The number of complete steps when the step begins.
-    struct StepDraw {};       ///< Makes random numbers differ by step (ir/draw_of_step.h).
+    /// Makes random numbers differ from step to step (ir/draw_of_step.h).
+    struct StepDraw {};
     /// The time t when the step begins, plus `part` times the step.
     struct MomentAt {
         double part = 0;
@@ -54,8 +55,8 @@ struct StepProblem {
         bool needs_halo = false;              ///< Whether the result is read at neighbours.
         Boundaries boundary = {};             ///< The sides of a temporary without `rules`.
         std::optional<SpeciesId> rules = {};  ///< A temporary's index in `sides`, if it has rules.
-        /// For a species, or a temporary with rules: the fraction of the step at which its halo is
-        /// read, or next_step.
+        /// The fraction of the step at which the result's halo is read, or next_step. Only for a
+        /// species, or a temporary with rules.
         double read_at = next_step;
         static constexpr double next_step = -1;
     };
@@ -89,7 +90,7 @@ struct StepProblem {
     struct Convolution {
         PlaneRef operand;
         TemporaryId target;
-        bool needs_halo = false;   ///< Whether the target is read at neighbours.
+        bool needs_halo = false;   ///< The rules at the sides that fill the target's halo.
         Boundaries boundary = {};  ///< The rules that fill the target's halo.
         std::shared_ptr<const WeightedLags> weights;
     };
@@ -110,17 +111,19 @@ struct StepProblem {
         /// Runs the pass. Null in a problem that is only described (bind_plan()) and never runs.
         KernelPointer kernel;
         std::vector<PlaneRef> fields;  ///< One per field slot of the kernel.
-        /// Per field slot: whether the kernel reads neighbours, that is, cells to which links lead.
-        /// If the vector is empty, the kernel may read neighbours of all fields.
+        /// Whether the kernel reads neighbours by links, for each of its field slots. If the vector
+        /// is empty, the kernel may read neighbours of all fields.
         std::vector<bool> read_by_links;
         std::vector<const Mask*> masks;  ///< One per mask slot of the kernel.
-        std::vector<double> uniforms;    ///< Rounded if the problem is in single precision.
+        /// The values of the uniforms, rounded if the problem is in single precision.
+        std::vector<double> uniforms;
         std::vector<ChangingUniform> changing;
         std::vector<Result> results;
     };
 
     Grid grid;
-    const Links* links = nullptr;  ///< In the problem's precision. Null unless the grid is linked.
+    /// The links, in the problem's precision. Null unless the grid is linked.
+    const Links* links = nullptr;
     /// The number of cells that count in a mean. Excludes cells outside a mask and the padding of a
     /// linked grid's last row. 0: all cells count.
     std::int64_t cells_inside = 0;
@@ -139,11 +142,12 @@ struct StepProblem {
     std::uint32_t aggregates = 0;
     /// The diffusion of each species, for filters.
     std::vector<DiffusionTerms<DiffusionFactor>> diffusion;
-    /// By species, then by temporary. If empty, the grid's boundary applies to all.
+    /// The rules at the sides, first of each species, then of each temporary. If empty, the grid's
+    /// boundary applies to all.
     std::vector<SideRules> sides;
-    std::span<const ChangingSide> changing_sides;  ///< The sides that change.
+    std::span<const ChangingSide> changing_sides;  ///< The sides whose values change.
     SideMoment sides_moment;                       ///< The moment of `sides`.
-    /// Per species: whether its old step is read at neighbours.
+    /// Whether the old step of each species is read at neighbours.
     std::vector<bool> species_needs_halo;
 
     /// Whether the planes have halos.
@@ -181,9 +185,9 @@ struct StepProblem {
         return rules;
     }
     /// Fills the halos of all species for the moment of `sides`, if neighbours are read beyond the
-    /// sides. Must run inside a FlushDenormals.
+    /// sides. A FlushDenormals must exist in the calling scope.
     void fill_halos(std::span<Field> species) const { fill_halos(species, sides_moment); }
-    /// Does the same as fill_halos() for another moment.
+    /// Does the same as fill_halos() above, but for another moment.
     void fill_halos(std::span<Field> species, SideMoment moment) const {
         if (!has_halo()) return;
         const SpeciesPlanes present = planes_of(species);

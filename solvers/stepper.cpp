@@ -47,8 +47,8 @@ double Stepper::attempt(std::int64_t complete, double tolerance) {
         executor_->run_judged(clock_, {first, complete, roles_}, cancel_);
     roles_.go_on();
     knows_first_rates_ = first_rate_passes > 0;
-    // Values below this are close to the smallest normal numbers, where errors are only rounding
-    // errors.
+    // Smaller values than this are close to the smallest normal numbers, where errors are only
+    // rounding errors.
     const double least = problem().precision == Precision::single ? 1e-30 : 1e-150;
     double largest = 0;
     for (const auto& [error, size] : errors) {

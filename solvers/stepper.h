@@ -19,7 +19,7 @@ namespace cascade {
 class Stepper {
 public:
     /// Makes `species` the current copy and, if `keeps` is true, the kept copy. Fills its halo.
-    /// Begins with all threads, but lowers `most_threads` on small grids.
+    /// Begins with `most_threads` threads, or with fewer on small grids.
     Stepper(const StepProblem& problem, std::vector<Field> species, int most_threads,
             bool keeps = true, const MakeExecutor& make = make_thread_executor);
 
@@ -27,7 +27,8 @@ public:
     const Executor& executor() const { return *executor_; }
 
     CopyRoles roles() const { return roles_; }
-    /// Gives the copies their roles of an earlier moment, which undoes the steps since then.
+    /// Gives the copies the roles that they had at an earlier moment, which undoes the steps since
+    /// then.
     void set_roles(CopyRoles roles) { roles_ = roles; }
     /// Makes the current copy the kept copy. Does nothing if this stepper has no kept copy.
     void keep() { roles_.keep(); }
@@ -36,8 +37,8 @@ public:
 
     /// The current values, which may be read until the next step.
     const std::vector<Field>& species() const { return executor_->fetch(roles_.current); }
-    /// Moves the current values to the caller's vector. They must be taken back before the next
-    /// step.
+    /// Moves the current values to the caller's vector. The caller must give them back by
+    /// take_back() before the next step.
     void lend(std::vector<Field>& to) { to = executor_->take(roles_.current); }
     void take_back(std::vector<Field>& from) { executor_->put(roles_.current, std::move(from)); }
     /// The planes of a scratch register, which may be read until the next step.
@@ -52,8 +53,8 @@ public:
     /// Sets the time and the length of all later steps.
     void set_clock(const StageClock& clock) { clock_ = clock; }
     /// From now on, steps stop when `cancel` becomes true: attempt(), and advance() with a `count`
-    /// of 1, abandon their work and leave the current values unchanged. With a larger `count` all
-    /// steps are completed, because they are short.
+    /// of 1, abandon their work and leave the current values unchanged. With a larger `count`,
+    /// whose steps are short, all steps are completed.
     void leave_on(const std::atomic<bool>& cancel) { cancel_ = &cancel; }
 
     /// Takes `count` steps, at least one, after `complete` earlier ones. If `look` is true, returns
@@ -64,9 +65,9 @@ public:
 
     /// Tries one step of a problem with an error register. Returns the error of the step in units
     /// of the tolerance. For each species, the root mean square of the error is divided by the root
-    /// mean square of the new values and by `tolerance`. The largest of these quotients counts. NaN
-    /// if an error or a new value is not finite. The caller must then call accept(), or undo the
-    /// step by set_roles() with the earlier roles.
+    /// mean square of the new values and by `tolerance`. The error of the step is the largest of
+    /// these quotients. NaN if an error or a new value is not finite. The caller must then call
+    /// accept(), or undo the step by set_roles() with the earlier roles.
     double attempt(std::int64_t complete, double tolerance);
     /// Accepts the step just tried. Its last rates become the first rates of the next step.
     void accept();
@@ -88,7 +89,7 @@ private:
     bool knows_first_rates_ = false;
 };
 
-/// While it exists, the current species are in the caller's vector.
+/// Lends the current species to the caller's vector during the lifetime of this object.
 class SpeciesLoan {
 public:
     SpeciesLoan(Stepper& stepper, std::vector<Field>& to) : stepper_(stepper), to_(to) {

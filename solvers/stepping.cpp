@@ -10,10 +10,10 @@
 namespace cascade {
 namespace {
 
-/// Whether each step is checked before the next one begins.
+/// Whether each step is judged before the next step begins.
 bool is_judged(const StepProblem& problem) { return problem.error_register.has_value(); }
 
-/// The reason why steps are taken one by one; empty if they are not.
+/// The reason why steps are taken one by one; empty if they can be taken together.
 std::string hindrance(const StepProblem& problem) {
     const auto any = [&](const auto& is_so) {
         return std::any_of(problem.passes.begin(), problem.passes.end(), is_so);
@@ -45,8 +45,8 @@ void describe(const StepProblem& problem, int levels, Stepping& stepping) {
     }
 }
 
-/// The number of times that a step goes through memory. Some passes need all rows. The passes
-/// between two of them are divided into tiles of nearly equal numbers of levels.
+/// The number of times that a step reads its planes from memory. Some passes need all rows. The
+/// passes between two of them are divided into tiles of nearly equal numbers of levels.
 double tiles_of_step(const StepProblem& problem, int levels) {
     const std::size_t passes = problem.passes.size();
     const auto begins = [&](std::size_t pass) {

@@ -80,11 +80,11 @@ private:
         PassRunner::Worker passes;
         std::vector<std::span<Field>> registers;
     };
-    /// The arguments that all threads get.
+    /// The arguments of a run that are the same for all threads.
     struct Given {
         const StageClock& clock;
         const std::atomic<bool>* cancel = nullptr;
-        const RowsWritten* written_by_last = nullptr;  ///< May be null.
+        const RowsWritten* written_by_last = nullptr;  ///< For the last pass; may be null.
     };
     /// Sums of squares, one per row.
     struct Squares {
@@ -107,7 +107,7 @@ private:
     void add_squares(RowRange rows, const std::vector<Field>& values);
 
     const StepProblem* problem_;
-    Exchange* others_;  ///< Null unless the planes hold a part of the grid.
+    Exchange* others_;  ///< Null if the planes hold the whole grid.
     StepPlanes planes_;
     Team team_;
     std::optional<PassRunner> runner_;
@@ -118,9 +118,9 @@ private:
     Tiling tiling_;
     bool is_tiling_given_ = false;
     std::optional<TileRunner> tiles_;
-    std::vector<Worker> workers_;       ///< By thread in use.
-    std::vector<Squares> squares_;      ///< By species.
-    std::vector<std::uint8_t> finite_;  ///< By thread: whether its cells are finite.
+    std::vector<Worker> workers_;       ///< One for each thread in use.
+    std::vector<Squares> squares_;      ///< One for each species.
+    std::vector<std::uint8_t> finite_;  ///< Whether each thread's cells are finite.
 };
 
 ThreadExecutor::ThreadExecutor(const StepProblem& problem, std::vector<Field> species,
@@ -163,8 +163,8 @@ Tiling ThreadExecutor::best_tiling() const {
     Grid part = problem_->grid;
     const std::int64_t rows = planes_.layout().rows.count();
     (part.depth > 1 ? part.depth : part.height) = part.depth > 1 ? rows / part.height : rows;
-    // Parts on one machine share its third-level cache, so tiles fit into the second-level cache if
-    // they can.
+    // The parts on one machine share its third-level cache. So tiles are made to fit into the
+    // second-level cache, where possible.
     CacheSizes near = CacheSizes::here();
     near.third = 0;
     Tiling tiling = choose_tiling(*problem_, part, reach_, near);
@@ -256,7 +256,7 @@ bool ThreadExecutor::all_finite() const {
     return std::all_of(finite_.begin(), finite_.end(), [](std::uint8_t is) { return is != 0; });
 }
 
-/// Sums the squares of some rows of the step just computed.
+/// Sums the squares of the errors and of the values in some rows of the step just computed.
 void ThreadExecutor::add_squares(RowRange rows, const std::vector<Field>& values) {
     const std::vector<Field>& errors = planes_.scratch(*problem_->error_register);
     for (std::size_t k = 0; k < squares_.size(); ++k) {
@@ -281,8 +281,8 @@ void ThreadExecutor::run(const Given& given, const StepPass& first, std::size_t 
     are_halos_shared_ = levels_of_halo_ == 1;
 }
 
-/// Runs `left` passes from `next` on. If `meets` is true, each thread's own cells are complete at
-/// the end. Parts exchange halos before each batch of passes.
+/// Runs `left` passes from `next` on. If `meets` is true, each thread's own cells are complete when
+/// it returns. Parts exchange halos before each batch of passes.
 void ThreadExecutor::run_passes(Worker& worker, const Given& given, StepPass next, std::size_t left,
                                 bool meets) {
     if (others_ == nullptr) {
@@ -321,8 +321,8 @@ void ThreadExecutor::run_tiles(Worker& worker, const Given& given, StepPass& nex
     }
 }
 
-/// Fills the halos that the next `count` passes read. If they run `one_by_one`, each needs a halo
-/// for itself alone. Before the call, all threads must have completed the last pass.
+/// Fills the halos that the next `count` passes read. If passes run `one_by_one`, halos need only
+/// be wide enough for one pass. Before the call, all threads must have completed the last pass.
 void ThreadExecutor::share_reads(Worker& worker, StepPass next, std::size_t count,
                                  bool one_by_one) {
     if (worker.passes.number == 0) {

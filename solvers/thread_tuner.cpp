@@ -7,7 +7,7 @@ namespace cascade {
 namespace {
 
 // The duration of a trial, longer than a time slice of the operating system. Trials become rare
-// with time, so that a bad one costs little.
+// with time, so that a bad trial costs little.
 constexpr double trial_seconds = 0.02;
 constexpr double first_trial = 0.1;
 constexpr double longest_between_trials = 4;
@@ -26,7 +26,7 @@ void ThreadTuner::took(std::int64_t count, std::chrono::duration<double> duratio
         if (trial_.seconds >= trial_seconds) end_trial();
         return;
     }
-    // The weight of old measurements decays, so that recent ones are compared.
+    // The weight of old measurements decays, so that recent measurements are compared.
     const double old = std::max(0.0, 1 - duration.count() / first_trial);
     recent_.seconds = recent_.seconds * old + duration.count();
     recent_.steps = recent_.steps * old + steps;
@@ -46,7 +46,8 @@ int ThreadTuner::candidate(int turn) const {
 }
 
 void ThreadTuner::begin_trial() {
-    while (candidate(turn_) == best_) ++turn_;  // Ends, because 1 or most_ differs from best_.
+    // The loop ends, because 1 or most_ differs from best_.
+    while (candidate(turn_) == best_) ++turn_;
     current_ = candidate(turn_);
     trial_ = {};
 }

@@ -36,7 +36,7 @@ private:
 
     int most_;
     int best_;
-    int current_;               ///< Differs from best_ during a trial.
+    int current_;               ///< The number in use, which differs from best_ during a trial.
     int turn_ = 0;              ///< Determines the next candidate.
     double until_trial_ = 0.1;  ///< Seconds until the next trial.
     double between_trials_ = 0.1;

@@ -16,7 +16,8 @@ bool is_of_slices(const Grid& grid, const Tiling& tiling) {
     return grid.depth > 1 && tiling.along == Tiling::Along::slices;
 }
 
-/// The rows or slices of which layers of the outer axis consist, unless they consist of columns.
+/// The rows of which layers of the outer axis consist, or the slices if layers are whole slices.
+/// Not for layers of columns.
 RowRange outer_range(const PassRunner& runner, const Tiling& tiling) {
     const PlaneLayout& layout = runner.layout();
     if (layout.depth == 1) return layout.rows;
@@ -33,14 +34,14 @@ TileAxis outer_axis(const PassRunner& runner, const Tiling& tiling, int threads)
         return {std::max<std::int64_t>(grid.width / tiling.outer_layer, 1), threads,
                 wraps(problem, Side::left)};
     }
-    // A part has halos at the ends of its axis, and computes the layers there itself.
+    // A part has halos at the ends of its axis, and itself computes the layers of these halos.
     const bool is_divided = runner.is_part() && (grid.depth == 1 || is_of_slices(grid, tiling));
     const Side side = is_of_slices(grid, tiling) ? Side::front : Side::top;
     return {layers_of(outer_range(runner, tiling).count(), tiling.outer_layer), threads,
             !grid.linked && !is_divided && wraps(problem, side)};
 }
 
-/// An axis that is not cut counts as one layer.
+/// The axis along which slices are cut into bands. Counts as one layer if slices are not cut.
 TileAxis inner_axis(const StepProblem& problem, const Tiling& tiling) {
     if (!is_of_slices(problem.grid, tiling) || tiling.inner_bands <= 1) return {1, 1, false};
     return {layers_of(problem.grid.height, tiling.inner_layer), tiling.inner_bands,

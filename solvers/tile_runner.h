@@ -3,12 +3,12 @@
 //
 // A grid is cut along its rows. A grid with slices is cut along its slices and, within each slice,
 // along its rows. A grid with few slices is cut along its rows alone, and a layer is the same rows
-// of all slices. A grid with few rows in all is cut along its columns. In a part of a grid, layers
-// include the rows of the halo, and each level leaves out those that it does not compute. With two
-// axes, a tile is a part of one axis times a part of the other, and there are four phases. A cell's
-// phase along each axis never decreases from level to level, so the values that the cell reads are
-// complete. Two of the four phases are upright along one axis and inverted along the other. Their
-// tiles do not depend on each other.
+// of all slices. A grid with few rows in total is cut along its columns. In a part of a grid,
+// layers include the rows of the halo, and each level leaves out the rows that it does not compute.
+// With two axes, a tile is a part of one axis times a part of the other, and there are four phases.
+// A cell's phase along each axis never decreases from level to level, so the values that the cell
+// reads are complete. Two of the four phases are upright along one axis and inverted along the
+// other. The tiles of these two phases do not depend on each other.
 //
 // Kernels write beyond the last column of a row. If columns wrap, the cells there are copies of the
 // first column, so the first and the last column must belong to one layer. Therefore layer 0 also

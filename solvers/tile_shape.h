@@ -1,4 +1,4 @@
-// The shape of a tile in time. It says which layers of an axis are computed when, if several levels
+// The shape of a tile in time. It says when each layer of an axis is computed if several levels
 // (successive passes of steps) run while the layers are in the cache.
 //
 // A level reads layers at most one layer away and writes its own layer. An axis is cut into bands.

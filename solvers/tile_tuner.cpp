@@ -1,4 +1,5 @@
-// A state machine driven by the times of batches. It rests, or tries the candidates round by round.
+// A state machine driven by the times of batches. The tuner rests, or tries the candidates round by
+// round.
 #include "solvers/tile_tuner.h"
 
 #include "core/check.h"
@@ -22,8 +23,8 @@ constexpr double trial_batch_seconds = 0.00025;
 constexpr double warm_up_seconds = 0.01;
 // The fraction of a run that the first round of trials may cost.
 constexpr double share_of_run = 0.02;
-// The fraction of the time since the last trials that new trials may cost. Trials that change
-// nothing cost less than that.
+// The fraction of the time since the last trials that new trials may cost. Trials that lead to no
+// change become rarer, so they cost less.
 constexpr double share_of_rest = 0.005;
 constexpr double most_patience = 64;
 // A sweep is clearly faster if it takes less than this fraction of the time.
@@ -38,8 +39,8 @@ TileTuner::TileTuner(std::vector<Tiling> candidates, TilingMemory* memory, int t
     if (memory_ != nullptr && candidates_.size() > 1) recall();
 }
 
-/// Begins with the stored tiling. If it is not among the candidates, it was found for other steps
-/// and is ignored.
+/// Begins with the stored tiling. If that tiling is not among the candidates, it was found for
+/// other steps and is ignored.
 void TileTuner::recall() {
     const std::optional<Tiling> known = memory_->find(threads_);
     const auto found =
@@ -55,7 +56,7 @@ std::string TileTuner::how_found() const {
                                       : "";
 }
 
-/// The number of sweeps, in whole tiles, that take at least this time.
+/// The smallest number of sweeps, in whole tiles, that takes at least this time.
 std::int64_t TileTuner::sweeps_in(double seconds) const {
     const double tiles = std::ceil(seconds / (seconds_per_sweep_ * most_levels_));
     return most_levels_ * static_cast<std::int64_t>(std::clamp(tiles, 1.0, 1e9));

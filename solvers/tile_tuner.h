@@ -1,12 +1,13 @@
 // Chooses a tiling by measured times. The fastest tiling depends on more than the sizes of caches.
 // So a run that is long enough tries a few tilings: in several rounds, it takes some steps with
-// each of them in turn. Then it continues with the fastest. Results do not depend on the tiling.
+// each tiling in turn. After the last round it uses the fastest. Results do not depend on the
+// tiling.
 //
 // The first tiling in use is chosen by the sizes of caches, or is the result of an earlier run.
 // Another tiling replaces it only if the other tiling was clearly faster in every round. A tiling
-// that was not clearly faster in a round is not tried in later rounds. A turn counts by its fastest
-// batch. So no disturbance decides the result, and after the first round only tilings that seem
-// faster cost time. But other programs may be busy during all rounds. So all tilings are tried
+// that was not clearly faster in a round is not tried in later rounds. Only the fastest batch of a
+// turn counts. So no disturbance decides the result, and after the first round only tilings that
+// seem faster cost time. But other programs may be busy during all rounds. So all tilings are tried
 // again from time to time, and an earlier run's result is tried as soon as trials may begin.
 #pragma once
 
@@ -21,7 +22,7 @@
 
 namespace cascade {
 
-/// Callers pass in the times, so that a test can choose them.
+/// Callers pass in the times, so that tests can choose them.
 class TileTuner {
 public:
     using Seconds = std::chrono::duration<double>;
@@ -40,12 +41,13 @@ public:
     /// The reason why this tiling is in use, in words; empty before trials end.
     std::string how_found() const;
 
-    /// The number of sweeps (passes of steps) in a batch while tilings are tried. It is a fraction
-    /// of a turn, and a whole number of tiles for each candidate.
+    /// The number of sweeps (passes of steps) in a batch while tilings are tried. The batch takes a
+    /// fraction of a turn, and the number is a whole number of tiles for each candidate.
     std::int64_t sweeps_of_trial() const;
 
     /// Records the time of a batch of `sweeps` with tiling(). `left` is how long the run will
-    /// probably continue at that speed. Trials begin when they take little time compared to `left`.
+    /// probably continue at that speed. Trials begin once they would take little time compared to
+    /// `left`.
     void took(std::int64_t sweeps, Seconds duration, Seconds left);
 
 private:
@@ -75,9 +77,9 @@ private:
     std::size_t used_before_ = 0;  ///< The tiling in use when trials began.
     bool is_trying_ = false;
     double rested_seconds_ = 0;  ///< Seconds of steps since the last trials, or since the start.
-    double seconds_per_sweep_ = never;  ///< Seconds per sweep in the fastest batch since the last
-                                        ///< trials, or since the start.
-    double patience_ = 1;               ///< The factor by which trials are rarer than at first.
+    /// Seconds per sweep in the fastest batch since the last trials, or since the start.
+    double seconds_per_sweep_ = never;
+    double patience_ = 1;  ///< The factor by which trials are rarer than at first.
     int round_ = 0;
     std::int64_t sweeps_of_turn_ = 0;
     std::vector<Tried> tried_;  ///< The remaining candidates, beginning with the choice by size.

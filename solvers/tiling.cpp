@@ -11,17 +11,17 @@ namespace cascade {
 namespace {
 
 // A layer has at least this many cells, including halo. A kernel call for fewer cells costs more
-// time than a near cache saves. In a grid 512 cells wide, a layer has three rows. In a grid 1024
-// cells wide it has one row: layers of two rows are 7 % slower, because the levels fill more of the
-// cache.
+// time than the second-level cache saves. In a grid 512 cells wide, a layer has three rows. In a
+// grid 1024 cells wide it has one row: layers of two rows are 7 % slower, because the levels fill
+// more of the cache.
 constexpr std::int64_t cells_of_a_layer = 1632;
-// cells_of_a_layer was measured with kernels of at most this many results. With more results, fewer
-// cells are as much work.
+// cells_of_a_layer was measured with kernels of at most this many results. With more results, a
+// kernel call for fewer cells is as much work.
 constexpr std::size_t few_results = 8;
 // The fraction of a cache that the levels of a tile share. The rest of the cache is for data that
 // the levels use only once.
 constexpr double part_of_second = 0.6, part_of_third = 0.5;
-// The number of layers in use in addition to one per level: the neighbouring layers that a level
+// Each level uses one layer. This many more layers are in use: the neighbouring layers that a level
 // reads.
 constexpr std::int64_t layers_besides = 3;
 // More levels than this hardly save anything.
@@ -30,8 +30,8 @@ constexpr int enough_levels = 16;
 constexpr int few_levels = 6;
 constexpr int levels_in_bands = 8;
 // In a grid with fewer rows than this, threads and tiles divide the columns among themselves, not
-// the rows. In a tile of rows, each level is shorter than the one before by a layer at both ends,
-// so the later levels would be empty.
+// the rows. In a tile of rows, each level is a layer shorter at both ends than the level before, so
+// the later levels would be empty.
 constexpr std::int64_t few_rows = 2 * enough_levels;
 // The least width of layers of columns. In narrower layers, starting the loop over a row costs too
 // much time.
@@ -49,13 +49,14 @@ int levels_in(double bytes, std::int64_t layer_bytes) {
     return static_cast<int>(std::clamp<std::int64_t>(layers - layers_besides, 1, enough_levels));
 }
 
-/// Whether a level finds its data in the second-level cache. A level reads values that the previous
-/// level has just written, and overwrites older values.
+/// Whether a level finds its data in the second-level cache: the values that the previous level has
+/// just written, and the older values that the level overwrites.
 bool is_near(std::int64_t layer_bytes, const CacheSizes& caches) {
     return (1 + layers_besides) * layer_bytes <= caches.second;
 }
 
-/// The number of rows or slices in a layer. The grid has `count` of them.
+/// The number of rows or slices in a layer. The grid has `count` rows or slices of `cells_of_each`
+/// cells.
 std::int64_t height_of_layer(const StepProblem& problem, std::int64_t cells_of_each,
                              std::int64_t count) {
     std::size_t results = few_results;
@@ -64,7 +65,8 @@ std::int64_t height_of_layer(const StepProblem& problem, std::int64_t cells_of_e
     return std::clamp<std::int64_t>(static_cast<std::int64_t>(cells) / cells_of_each, 1, count);
 }
 
-/// The tiling with layers of this height. `count` rows or slices take `bytes` in all.
+/// The tiling with layers of `height` rows or slices. All `count` rows or slices together take
+/// `bytes`.
 Tiling tiling_of_layers(std::int64_t height, std::int64_t count, std::int64_t bytes,
                         const CacheSizes& caches) {
     Tiling tiling;
@@ -92,7 +94,7 @@ Tiling tiling_of_slices(const StepProblem& problem, const Grid& grid, std::int64
     const std::int64_t slices = height_of_layer(problem, stride * grid.height, grid.depth);
     const std::int64_t rows = height_of_layer(problem, stride * grid.depth, grid.height);
     const Tiling of_slices = tiling_of_layers(slices, grid.depth, bytes, caches);
-    // If an axis wraps, levels shrink by a layer at both of its ends.
+    // If an axis wraps, each level is a layer shorter at both ends of the axis.
     const bool is_flat = grid.depth / slices < 2 * enough_levels;
     if (of_slices.levels >= few_levels && !is_flat) return of_slices;
     Tiling of_rows = tiling_of_layers(rows, grid.height, bytes, caches);
@@ -157,9 +159,9 @@ Tiling tiling_beyond_cache(const StepProblem& problem, const Grid& grid, std::in
     return of_columns;
 }
 
-/// With fewer values than this per thread and step, a barrier costs more than a thread saves:
-/// computing so many values takes about 10 µs, and a barrier about 1 µs. Values of cells with links
-/// take longer.
+/// The least number of values per thread and step. With fewer values, a barrier costs more than a
+/// thread saves: computing so many values takes about 10 µs, and a barrier about 1 µs. Values of
+/// cells with links take longer.
 constexpr std::int64_t least_values_per_thread = 16384;
 constexpr std::int64_t least_linked_values_per_thread = 8192;
 

@@ -23,13 +23,14 @@ struct Tiling {
         columns,  ///< The same columns of all rows.
     };
 
-    int levels = 1;  ///< The largest number of levels; 1: each pass runs separately.
+    int levels = 1;  ///< The largest number of levels. If it is 1, each pass runs separately.
     /// The number of slices, rows or columns in a layer. Columns are a multiple of
     /// PlaneLayout::row_pad.
     std::int64_t outer_layer = 1;
-    /// For a grid with slices: the number of rows in a layer of the inner axis.
+    /// The number of rows in a layer of the inner axis. Only for a grid with slices.
     std::int64_t inner_layer = 1;
-    int inner_bands = 1;  ///< The number of bands along the inner axis; 1: slices are not cut.
+    /// The number of bands along the inner axis. If it is 1, slices are not cut.
+    int inner_bands = 1;
     /// Whether all levels but the first find their data in the second-level cache, so that none of
     /// it is prefetched.
     bool is_near = false;
@@ -45,8 +46,8 @@ bool has_few_rows(const Grid& grid);
 /// of all rows.
 Patch share_of(const Grid& grid, int index, int count);
 
-/// The number of threads that are worthwhile for steps of this many species, at most `most`. A
-/// small grid is worth fewer threads.
+/// The number of threads that are worthwhile for steps of this many species, at most `most`. Small
+/// grids get fewer threads.
 int worthwhile_threads(const Grid& grid, std::size_t species, int most);
 
 /// Whether all rows of the preceding passes must be complete before this pass begins, because it
@@ -60,7 +61,7 @@ std::int64_t bytes_of_step(const StepProblem& problem);
 /// The largest number of rows that a link spans; at least 1.
 std::int64_t rows_reached(const StepProblem& problem);
 
-/// Whether any plane is periodic along the axis of this side.
+/// Whether any plane is periodic along the axis to which this side belongs.
 bool wraps(const StepProblem& problem, Side side);
 
 /// Whether all planes of a step stay in a core's caches from step to step. If they do, several
@@ -69,7 +70,7 @@ bool stays_in_cache(const StepProblem& problem, const CacheSizes& caches);
 
 /// The tiling whose levels' data fit into the caches. `reach` is the result of rows_reached().
 Tiling choose_tiling(const StepProblem& problem, std::int64_t reach, const CacheSizes& caches);
-/// Does the same for a part of the problem's grid that is as large as `part`.
+/// Chooses a tiling as above for `part`, a part of the problem's grid.
 Tiling choose_tiling(const StepProblem& problem, const Grid& part, std::int64_t reach,
                      const CacheSizes& caches);
 

@@ -28,8 +28,8 @@ public:
     using Planes = std::vector<Number*>;
     struct FilteredPlanes {
         Planes filtered;
-        std::vector<Planes> kept;  ///< For the stages of etdrk4: etd_registers planes.
-        Planes error;              ///< Only for the last stage of etdrk4. Otherwise empty.
+        std::vector<Planes> kept;  ///< The etd_registers planes of the stages of etdrk4.
+        Planes error;              ///< The errors. Empty except in the last stage of etdrk4.
     };
     /// Replaces every wave of the filtered planes by its response in a step of this length. The
     /// first `threads` threads of the team call this, by the same rules as WaveTransforms::apply().

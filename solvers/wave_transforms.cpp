@@ -1,11 +1,11 @@
 // Whatever the number of threads, each call of FFTW transforms one row or sixteen neighbouring
-// columns, so results are the same bit for bit. Plans are estimated, because measuring would choose
-// differently from run to run. The last axis is transformed from the plane to a buffer in which its
-// lines are contiguous, for which even estimated plans are fast.
+// columns, so results are the same bit for bit. Plans are estimated, because measured plans would
+// differ from run to run. The last axis is transformed from the plane to a buffer in which its
+// lines are contiguous. For contiguous lines even estimated plans are fast.
 //
-// Along periodic rows, real numbers are transformed to complex ones. From then on, columns are
-// complex, and FFTW's complex transforms apply. These use vectors, while FFTW's transforms of real
-// numbers to real ones do not.
+// Along periodic rows, real numbers are transformed to complex numbers. From then on, columns are
+// complex, and FFTW's complex transforms apply. FFTW uses vector instructions for complex
+// transforms, but not for transforms of real numbers to real numbers.
 #include "solvers/wave_transforms.h"
 
 #include "core/plane.h"
@@ -25,8 +25,9 @@ namespace {
 struct AxisWaves {
     int forward = FFTW_R2HC;
     int backward = FFTW_HC2R;
-    double shift = 0;          ///< Wave n makes (n + shift) / 2 periods over the axis.
-    bool is_periodic = false;  ///< Whether waves are whole periods, in the order of FFTW_R2HC.
+    double shift = 0;  ///< Wave n makes (n + shift) / 2 periods over the axis.
+    /// Whether each wave has a whole number of periods. Waves are then in the order of FFTW_R2HC.
+    bool is_periodic = false;
 
     friend bool operator==(const AxisWaves&, const AxisWaves&) = default;
 };
@@ -83,7 +84,7 @@ std::vector<Number> first_differences(const AxisWaves& waves, std::int64_t cells
     return values;
 }
 
-/// The factor by which a transform followed by its inverse multiplies values.
+/// The factor by which values grow in a transform followed by its inverse.
 double gain_of(const AxisWaves& waves, std::int64_t cells) {
     return static_cast<double>(cells) * (waves.is_periodic ? 1 : 2);
 }
@@ -100,12 +101,14 @@ struct WaveTransforms<Number>::Implementation {
     struct Shape {
         WavesOfAxes waves;
         std::int64_t columns = 0;    ///< The number of elements in a row of waves.
-        bool lines_complex = false;  ///< Whether the buffer's lines are complex.
+        bool lines_complex = false;  ///< Whether the buffer's lines hold complex numbers.
         double gain = 1;
         std::array<FftwTransform<Number>, 3> forward, backward;
-        /// By axis. Along x there is one value per line of the buffer.
+        /// The factors of differences along each axis. Along x there is one factor per line of the
+        /// buffer.
         std::array<std::vector<Number>, 3> differences;
-        std::array<std::vector<Number>, 2> slopes;  ///< Laid out like `differences`.
+        /// The factors of central differences along x and y, laid out like `differences`.
+        std::array<std::vector<Number>, 2> slopes;
     };
     struct Free {
         void operator()(Number* data) const { free_plane(data); }
@@ -196,8 +199,8 @@ struct WaveTransforms<Number>::Implementation {
     std::int64_t blocks(const Shape& one) const {
         return (one.columns + Block::columns - 1) / Block::columns;
     }
-    /// The number of independent parts of a transform along an axis. Rows have their usual numbers,
-    /// so threads share them as they do for kernels.
+    /// The number of independent parts of a transform along an axis. A part of the transform along
+    /// x is a row with its usual number, so threads share rows as they do for kernels.
     std::int64_t pieces(const Shape& one, Axis axis) const {
         if (axis == x) return layout.row_count();
         return blocks(one) * (axis == y ? layout.depth : layout.height);
@@ -244,7 +247,7 @@ struct WaveTransforms<Number>::Implementation {
         return made;
     }
 
-    /// Visits these rows of the species that are not transformed.
+    /// Visits these rows of all species that are not transformed.
     void visit_rows(const RowRange& rows, const std::vector<bool>& transformed,
                     std::span<const std::span<Number* const>> to, const Visit& visit) const {
         std::vector<Number*> waves(to.size());
@@ -265,7 +268,7 @@ struct WaveTransforms<Number>::Implementation {
     Grid grid;
     std::vector<Axis> axes;  ///< The axes of more than one cell, in the order of transforms.
     std::vector<Shape> shapes;
-    std::vector<std::size_t> shape_of;  ///< By species: the index of its shape.
+    std::vector<std::size_t> shape_of;  ///< The index of each species' shape.
 };
 
 template <typename Number>
@@ -295,7 +298,7 @@ void WaveTransforms<Number>::apply(Team& team, int thread, int threads,
         }
     };
     self.visit_rows(split_rows(self.layout.row_count(), thread, threads), transformed, to, visit);
-    // Threads have the same rows as for kernels, but not the same columns.
+    // Threads have the same rows as in kernels, but not the same columns.
     const bool begins_with_rows = self.axes.front() == Axis::x;
     if (!begins_with_rows) team.barrier();
     for (std::size_t n = 0; n + 1 < self.axes.size(); ++n) {
@@ -305,7 +308,7 @@ void WaveTransforms<Number>::apply(Team& team, int thread, int threads,
         });
         team.barrier();
     }
-    // After the last axis the transform is complete.
+    // The transform is complete after the last axis.
     const Axis last = self.axes.back();
     const auto buffer = self.buffer(to.size());
     std::vector<Number*> waves(to.size());

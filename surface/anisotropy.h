@@ -7,9 +7,9 @@
 
 namespace cascade {
 
-/// A symmetric matrix of determinant 1 that describes an anisotropic metric in a plane. The length
-/// of a vector in this metric is the length of the matrix times the vector. Areas are the same in
-/// both metrics.
+/// A symmetric matrix of determinant 1 that describes an anisotropic metric in a plane. To find the
+/// length of a vector in this metric, multiply the vector by the matrix and take the ordinary
+/// length. Areas are the same in both metrics.
 struct Stretch {
     double xx = 1, xy = 0, yy = 1;
 
@@ -21,7 +21,8 @@ struct Stretch {
     Stretch inverse() const { return {yy, -xy, xx}; }
     /// The length, at least 1, of the longest vector whose length in the metric is 1.
     double longest() const;
-    /// The same stretch in a frame whose x axis is the unit vector `turn` in this frame.
+    /// The same stretch in another frame. The unit vector `turn` is the other frame's x axis in
+    /// this frame.
     Stretch in_frame(Vector2d turn) const;
 };
 
@@ -29,11 +30,11 @@ struct Stretch {
 /// Reaction-Diffusion" (thesis, 1992), section 4.4.1, contracts the points around a cell in the
 /// direction of anisotropy.
 struct Anisotropy {
-    /// Per triangle, of any length. The component normal to the triangle is ignored.
+    /// A vector of any length per triangle. Its component normal to the triangle is ignored.
     std::vector<Vector3d> direction;
-    /// Per triangle, 1 … `largest_ratio`: the length of cells divided by their width. Compared with
-    /// an isotropic surface, diffusion is `ratio` times as fast along the direction and 1/ratio
-    /// times as fast across it.
+    /// The ratio in each triangle, 1 … `largest_ratio`: the length of cells divided by their width.
+    /// Compared with an isotropic surface, diffusion is `ratio` times as fast along the direction
+    /// and 1/ratio times as fast across it.
     std::vector<double> ratio;
 
     static constexpr double largest_ratio = 100;

@@ -47,9 +47,9 @@ private:
         return best;
     }
 
-    /// Appends the triangles of an interval, inner ones last. So each triangle, when its turn
-    /// comes, cuts its middle corner off the rest of the ring. The recursion is at most as deep as
-    /// the ring is long.
+    /// Appends the triangles of an interval: first the triangles of its two parts, then the
+    /// triangle between these parts. So each triangle, when its turn comes, cuts its middle corner
+    /// off the rest of the ring. The recursion is at most as deep as the ring is long.
     void collect(std::uint32_t from, std::uint32_t to, std::vector<RingTriangle>& found) {
         if (to - from < 2) return;
         const std::uint32_t middle = part(from, to).middle;

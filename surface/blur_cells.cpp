@@ -1,5 +1,5 @@
-// The exponential of the diffusion operator as a series of Chebyshev polynomials, which applies the
-// operator far less often than explicit steps.
+// Computes the exponential of the diffusion operator as a series of Chebyshev polynomials. This
+// applies the operator far less often than explicit steps would.
 #include "surface/blur_cells.h"
 
 #include <algorithm>
@@ -10,11 +10,12 @@ namespace cascade {
 
 namespace {
 
-/// The limit of a Voronoi edge's length divided by the distance between its cells. Without the
+/// The limit for a Voronoi edge's length divided by the distance between its cells. Without this
 /// limit, cells near each other would require many applications of the operator.
 constexpr double most_flow = 4;
-constexpr double least_blurred_area = 0.2;  ///< As a fraction of the average.
-constexpr double precision = 1e-4;          ///< Limits the sum of the omitted terms of the series.
+/// The least area of a cell, as a fraction of the average.
+constexpr double least_blurred_area = 0.2;
+constexpr double precision = 1e-4;  ///< Limits the sum of the omitted terms of the series.
 
 /// The coefficients of the flow between cells, in units of the average area.
 struct Flows {

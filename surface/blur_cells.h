@@ -15,7 +15,7 @@ double cell_spacing(const SurfaceCells& cells);
 /// Blurs `values` (`channels` numbers per cell, cell after cell) by a Gaussian with standard
 /// deviation `sigma`, 0 … 10⁴, in cell spacings. Preserves the sum of value times area up to
 /// rounding. Values exceed their original range by at most a thousandth of the range. A cell
-/// smaller than a fifth of the average area counts as having a fifth of it. The result is the same
+/// smaller than a fifth of the average area counts as if it had that fifth. The result is the same
 /// with any number of threads.
 ///
 /// Computes the exponential of diffusion by Chebyshev polynomials of the flows between neighbours

@@ -33,7 +33,7 @@ static_assert(sizeof(Header) == 64);
 
 constexpr std::uint64_t bytes_per_cell = 4 + 3 * 8 + 8 + 8;
 constexpr std::uint64_t bytes_per_edge = 4 + 8 + 8;
-// Prevents overflow of sums of sizes.
+// No list may have more entries, so that sums of sizes do not overflow.
 constexpr std::uint64_t most_entries = std::uint64_t{1} << 40;
 
 template <typename T>
@@ -119,7 +119,8 @@ bool is_sound(const SurfacePlace& place, const SurfaceMesh& mesh) {
                        [](double weight) { return weight >= 0 && weight <= 1; });
 }
 
-/// Whether a cell's Voronoi edges are in ascending order and appear in the neighbouring cells, too.
+/// Whether a cell's Voronoi edges are sorted by neighbour, and each also appears in its neighbour's
+/// list.
 bool are_sound(const SurfaceCells& cells, std::uint32_t cell) {
     const auto edges = cells.edges_of(cell);
     for (std::size_t k = 0; k < edges.size(); ++k) {

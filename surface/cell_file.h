@@ -23,14 +23,15 @@ inline constexpr std::uint32_t cell_file_version = 4;
 struct CellKey {
     std::array<std::uint64_t, 2> words{};
     friend bool operator==(const CellKey&, const CellKey&) = default;
-    std::string text() const;  ///< 32 hexadecimal digits, for a file name.
+    std::string text() const;  ///< The key as 32 hexadecimal digits, for a file name.
 };
 CellKey key_of(const SurfaceMesh& mesh, const CellOptions& options);
 
 /// The content of a file of cells.
 std::string print_cells(const SurfaceCells& cells, const CellKey& key);
-/// Parses the cells made with this key for this surface. Fails as read_cells() fails for a file
-/// with this content. The message is a clause without a subject, such as "is no file of cells".
+/// Parses a file of cells that must have been made for this surface with this key. Fails in the
+/// same cases as read_cells(). The message is a clause without a subject, such as "is no file of
+/// cells".
 Result<SurfaceCells> parse_cells(std::string_view bytes, const SurfaceMesh& mesh,
                                  const CellKey& key);
 

@@ -99,7 +99,8 @@ CellFilter::FlatPoint CellFilter::flat_point(const Patch& patch, const SurfacePl
     const auto second = static_cast<float>(place.weights[(patch.first_corner + 1) % 3]);
     const auto third = static_cast<float>(place.weights[(patch.first_corner + 2) % 3]);
     FlatPoint result{second * patch.second_x + third * patch.third_x, third * patch.third_y, {}};
-    // On an edge the opposite corner has weight 0, so only the sightings of this edge count.
+    // On an edge, the opposite corner has weight 0. So only the sightings seen from this edge
+    // count.
     float sum = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         const double others = place.weights[k] * place.weights[(k + 1) % 3];
@@ -131,8 +132,7 @@ std::span<const CellFilter::Sighting> CellFilter::sightings_of(std::uint32_t fir
     return {sightings_.data() + first, box_ends_[first_box + boxes - 1] - first};
 }
 
-/// The sightings of an image. If several edges see it at nearly the same point, they share a
-/// sighting.
+/// The sightings of an image. Edges that see the image at nearly the same point share a sighting.
 CellFilter::Sightings CellFilter::sightings_in(const CellImage& image, std::uint32_t cell) {
     Sightings found;
     for (std::uint32_t k = 0; k < 3; ++k) {
@@ -205,8 +205,9 @@ void CellFilter::fill_boxes(const SurfaceMesh& mesh, const SurfaceCells& cells,
     std::size_t sum = 0;
     for (std::size_t& end : box_ends_) {
         const std::size_t count = end;
-        end = sum;  // For now, this is the start of the list. Filling the list moves it to the
-                    // list's end.
+        // The start of the list for now. While the list is filled, this number grows to the list's
+        // end.
+        end = sum;
         sum += count;
     }
     sightings_.resize(sum);
@@ -217,7 +218,7 @@ void CellFilter::fill_boxes(const SurfaceMesh& mesh, const SurfaceCells& cells,
 }
 
 /// Chooses the cell to use in triangles without sightings: the cell of the next triangle on the way
-/// to the nearest cell. In a component without cells, it is the cell nearest in space to the
+/// to the nearest cell. For a component without cells, chooses the cell nearest in space to the
 /// component's first triangle.
 void CellFilter::find_substitutes(const SurfaceMesh& mesh, const SurfaceCells& cells) {
     std::vector<std::uint32_t> waiting;
@@ -279,15 +280,15 @@ std::uint32_t CellFilter::nearest_cell(const Patch& patch, FlatPoint place) cons
     return nearest;
 }
 
-/// Calls `visit(near)` once for each cell within the radius. On an edge, the distance is the one
+/// Calls `visit(near)` once for each cell within the radius. On an edge, visit() gets the distance
 /// that is stored for the edge itself, so that both triangles agree. Inside a triangle, distances
 /// are interpolated between the edges.
 template <typename Visit>
 void CellFilter::visit_near(const Patch& patch, FlatPoint place, const Visit& visit) const {
     const Vector3 position = patch.origin + patch.x_axis * place.x + patch.y_axis * place.y;
     const auto [a, b, c] = place.edges;
-    // A table with the sum of the weights of each subset of the edges. Branches instead of the
-    // table would be unpredictable.
+    // A table with the sum of the weights of each subset of the edges. A branch for each subset
+    // would be unpredictable.
     const std::array<float, 8> parts{0, a, b, a + b, c, a + c, b + c, 1};
     const auto sightings = sightings_of(box_of(patch, place), 1);
     for (std::size_t k = 0; k < sightings.size();) {

@@ -78,11 +78,12 @@ private:
     struct Near {
         std::uint32_t cell = 0;
         float square = 0;    ///< The squared distance.
-        float x = 0, y = 0;  ///< From the cell to the position.
+        float x = 0, y = 0;  ///< The vector from the cell to the position.
     };
     struct FlatPoint {
         float x = 0, y = 0;
-        std::array<float, 3> edges{};  ///< Weights of the edges: 1 on an edge, with sum 1.
+        /// The weights of the edges, with sum 1. On an edge, that edge has weight 1.
+        std::array<float, 3> edges{};
     };
     /// The sightings of one image.
     struct Sightings {
@@ -106,10 +107,12 @@ private:
     void find_substitutes(const SurfaceMesh& mesh, const SurfaceCells& cells);
 
     double radius_ = 0;
-    std::vector<Vector3> positions_;     ///< The cells' positions in space, relative to the first.
-    std::vector<Patch> patches_;         ///< One per triangle.
-    std::vector<std::size_t> box_ends_;  ///< Box b's sightings end before sightings_[box_ends_[b]].
-    std::vector<Sighting> sightings_;    ///< Sorted by box, then by cell.
+    /// The cells' positions in space, relative to the first cell.
+    std::vector<Vector3> positions_;
+    std::vector<Patch> patches_;  ///< One per triangle.
+    /// The sightings of box b end before sightings_[box_ends_[b]].
+    std::vector<std::size_t> box_ends_;
+    std::vector<Sighting> sightings_;  ///< Sorted by box, then by cell.
 };
 
 }  // namespace cascade

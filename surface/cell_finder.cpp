@@ -11,7 +11,7 @@ namespace cascade {
 
 namespace {
 
-/// The nearest cell. Of equally near cells, the one with the lowest index.
+/// The nearest cell. If several cells are equally near, the cell with the lowest index.
 struct Nearest {
     double distance = std::numeric_limits<double>::infinity();
     std::uint32_t cell = CellFinder::nothing;
@@ -55,7 +55,7 @@ std::uint32_t CellFinder::at(const SurfacePlace& place) {
             }
         }
         // A cell farther away than the reach is not certain to be the nearest, because the patch
-        // may lack a nearer one.
+        // may lack a nearer cell.
         if (nearest.distance <= reach) return nearest.cell;
         if (!(reach < whole_)) break;
     }

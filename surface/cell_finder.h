@@ -19,8 +19,8 @@ public:
     CellFinder(const SurfaceMesh& mesh, std::span<const SurfacePlace> cells);
 
     /// The cell that is nearest in the unfolded surface around the position, or nearest in space if
-    /// the position's component has no cell. Of equally near cells, the one with the lowest index.
-    /// `nothing` if there are no cells.
+    /// the position's component has no cell. If several cells are equally near, the cell with the
+    /// lowest index. `nothing` if there are no cells.
     std::uint32_t at(const SurfacePlace& place);
 
 private:
@@ -29,7 +29,7 @@ private:
     const SurfaceMesh& mesh_;
     std::span<const SurfacePlace> cells_;
     double reach_;                      ///< About twice the spacing of cells.
-    double whole_;                      ///< More than the longest path.
+    double whole_;                      ///< More than the length of the longest path.
     std::vector<std::uint32_t> order_;  ///< The cells sorted by triangle.
     EdgeShapes shapes_;
     Unfolding unfolding_;

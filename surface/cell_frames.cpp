@@ -12,7 +12,7 @@ namespace cascade {
 namespace {
 
 // The largest ratio of the eigenvalues of M at which gradients certainly have a component across
-// the line of the neighbours (surface/cell_gradient.h). Includes a margin.
+// the line of the neighbours (surface/cell_gradient.h). A margin is included.
 constexpr double most_ratio = 500;
 
 /// Sums over the links of a cell, in its plane.
@@ -33,8 +33,8 @@ struct Shape {
     }
 };
 
-/// A neighbour: its position in the cell's plane, the line to it, and its weights in the fit of
-/// gradients and in the link.
+/// A neighbour: its position in the cell's plane, the line to it, its weight in the fit of
+/// gradients, and the weight of its link.
 struct Neighbour {
     Vector2d unfolded, line;
     double in_fit = 0, flow = 0;

@@ -1,6 +1,6 @@
 // Propagates an image from the position's triangle across edges, nearest edges first and each edge
-// once. An unfolded strip of triangles may wind back to its start. The propagation ends there: the
-// image would be nearer along the surface than in space, and such images are rejected.
+// once. An unfolded strip of triangles may wind back to its start. Propagation ends there, because
+// the image would be nearer along the surface than in space, and such images are rejected.
 #include "surface/cell_images.h"
 
 #include <algorithm>

@@ -35,9 +35,9 @@ public:
     ImageFinder(const SurfaceMesh& mesh, std::span<const FlatTriangle> frames, double radius);
 
     /// The images of a cell at this position in all triangles reached within the radius, along the
-    /// surface and in space. An edge that is not reached gets the image of an edge that is reached.
-    /// This does no harm, because both put the position farther away than the radius. Valid until
-    /// the next call.
+    /// surface and in space. An edge that is not reached gets the image of another edge. This does
+    /// no harm, because positions at such an edge are farther from either image than the radius.
+    /// Valid until the next call.
     std::span<const CellImage> find(const SurfacePlace& place);
 
 private:
@@ -74,7 +74,7 @@ private:
     Vector3d position_;
     std::vector<LastSeen> last_seen_;  ///< One per triangle.
     std::vector<Seen> seen_;
-    std::vector<Front> fronts_;  ///< A heap with the nearest on top.
+    std::vector<Front> fronts_;  ///< A heap of edges, the nearest on top.
     std::vector<CellImage> images_;
 };
 

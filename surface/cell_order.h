@@ -25,7 +25,8 @@ std::vector<std::uint32_t> order_for_steps(const LinkList& links);
 /// slice of links is as long as its longest list, so this reduces padding.
 void group_by_links(std::vector<std::uint32_t>& order, const LinkList& links, std::size_t window);
 
-/// The same links with cells renumbered by an order. Sorts the links of each cell by neighbour.
+/// The same links after cells have been renumbered: cell k of the result is cell order[k] of
+/// `links`. Sorts the links of each cell by neighbour.
 LinkList renumbered(const LinkList& links, std::span<const std::uint32_t> order);
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
-// Walks around the faces of the graph whose edges are the Voronoi edges. The order of the edges
-// around a cell is that of their directions.
+// Walks around the faces of the graph whose edges are the Voronoi edges. The edges around a cell
+// are sorted by direction.
 #include "surface/cell_triangles.h"
 
 #include <algorithm>
@@ -12,9 +12,9 @@ namespace {
 
 constexpr std::size_t most_corners = 64;
 
-/// A cell counts as surrounded by others if the normals of its Voronoi edges, times their lengths,
-/// add up to less than this part of its circumference. At a boundary of the surface the sum is the
-/// length of the missing edge.
+/// A cell counts as surrounded by others if the sum of its Voronoi edges' normals, times the edges'
+/// lengths, is shorter than this fraction of its circumference. At a boundary of the surface the
+/// sum is as long as the missing edge.
 constexpr double most_open = 0.15;
 
 constexpr std::size_t no_edge = static_cast<std::size_t>(-1);
@@ -40,7 +40,7 @@ public:
 
     CellTriangles find() {
         std::vector<bool> seen(flat_.size(), false);
-        std::vector<std::size_t> walk;  // By corner: the edge to the previous corner.
+        std::vector<std::size_t> walk;  // For each corner, the edge to the previous corner.
         for (std::size_t first = 0; first < flat_.size(); ++first) {
             walk.clear();
             std::size_t edge = first;
@@ -73,7 +73,7 @@ private:
         }
     }
 
-    /// The edge between two cells, as an edge of the first; no_edge if they share none.
+    /// The index of the edge from one cell to another; no_edge if the cells share none.
     std::size_t edge_between(std::uint32_t from, std::uint32_t to) const {
         const auto edges = cells_.edges_of(from);
         const auto found = std::find_if(edges.begin(), edges.end(), [&](const VoronoiEdge& edge) {
@@ -97,8 +97,8 @@ private:
         return length(sum) < most_open * around;
     }
 
-    /// Whether a walk goes around a convex polygon, such as a triangle, whose corners are different
-    /// cells. The polygon must be a part of the surface, not a hole.
+    /// Whether a walk goes around a convex polygon whose corners are different cells. A triangle is
+    /// such a polygon. The polygon must be a part of the surface, not a hole.
     bool is_polygon(const std::vector<std::size_t>& walk) const {
         if (walk.size() < 3 || walk.size() > most_corners) return false;
         std::vector<std::uint32_t> corners;
@@ -113,7 +113,8 @@ private:
                                              [&](auto cell) { return is_surrounded(cell); });
     }
 
-    /// Adds the triangles of a polygon. They lie in a strip, so that a corner has few diagonals.
+    /// Adds the triangles of a polygon. The triangles lie in a strip, so that each corner has few
+    /// diagonals.
     void cut(const std::vector<std::size_t>& walk) {
         std::vector<std::uint32_t> corners;
         for (const std::size_t edge : walk) corners.push_back(from_[edge]);

@@ -10,9 +10,9 @@
 
 namespace cascade {
 
-/// Three cells, in the order in which a walk around the triangle meets them. At each of them, the
-/// turn from the direction of the previous cell to the direction of the next has the sense of the
-/// turn from `right` to `down` in CellFrames.
+/// Three cells, in the order of a walk around their triangle. At each cell, the turn from the
+/// previous cell's direction to the next cell's has the same sense as the turn from `right` to
+/// `down` in CellFrames.
 using CellTriangle = std::array<std::uint32_t, 3>;
 
 struct CellTriangles {

@@ -34,7 +34,8 @@ public:
         each_merged([&](std::uint32_t point, std::uint32_t) { ++ends_[point + 1]; });
         std::partial_sum(ends_.begin(), ends_.end(), ends_.begin());
         triangles_.resize(ends_.back());
-        // ends_ now has the start of each point's triangles. Filling moves each start to the end.
+        // ends_ now has the start of each point's triangles. Filling the lists moves each start to
+        // its end.
         ends_.pop_back();
         each_merged([&](std::uint32_t point, std::uint32_t t) { triangles_[ends_[point]++] = t; });
     }
@@ -66,7 +67,7 @@ private:
     }
 
     /// The nearest position on the triangles around these points. Leaves out triangles that face
-    /// the other way.
+    /// away from `normal`.
     SurfacePlace nearest(Vector3d position, std::span<const std::uint32_t> points,
                          Vector3d normal) const {
         SurfacePlace best = {triangles_of(points[0])[0], {1, 0, 0}};
@@ -88,7 +89,7 @@ private:
 
     const SurfaceMesh& mesh_;
     const CoarseCopy& copy_;
-    std::vector<std::size_t> ends_;  ///< Point p's triangles end before triangles_[ends_[p]].
+    std::vector<std::size_t> ends_;  ///< The triangles of point p end before triangles_[ends_[p]].
     std::vector<std::uint32_t> triangles_;  ///< The triangles of each point of the copy.
 };
 

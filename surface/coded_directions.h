@@ -24,7 +24,7 @@ public:
         if (kind_ == DirectionKind::arrows) return flat;
         return product(flat, unit_of(flat));
     }
-    /// The direction of a code, with length 1.
+    /// The direction that a code stands for, with length 1.
     Vector3d in_space(std::size_t plane, Vector2d code) const {
         const double angle = std::atan2(code.y, code.x) / symmetry();
         return planes_.frames[plane].in_space({std::cos(angle), std::sin(angle)});

@@ -15,13 +15,13 @@ namespace {
 // A smaller area counts as this fraction of the mean area. Without this limit, the smallest cells
 // would make steps very short.
 constexpr double least_conducting_area = 1e-3;
-// The limit for spread cells: the sum of a cell's weights, times the mean area, divided by the
-// cell's area. Regular hexagons have 3.46.
+// The limit for spread cells. It applies to the sum of a cell's weights, times the mean area,
+// divided by the cell's area. In regular hexagons this is 3.46.
 constexpr double most_weight = 7.5;
 // The fraction of cells whose areas are increased, if cells are faces or points.
 constexpr double tightest_part = 1e-3;
 
-/// The largest number c for which the sum of min(w, c) over the weights is at most `sum`.
+/// The largest limit c for which the sum of min(w, c) over all weights w is at most `sum`.
 double cap_for(std::vector<double> weights, double sum) {
     std::sort(weights.begin(), weights.end());
     for (std::size_t k = 0; k < weights.size(); ++k) {
@@ -78,8 +78,8 @@ private:
             made_.areas[cell] = std::max(made_.areas[cell], sums_[cell] * mean / most);
     }
 
-    /// The limit that all cells but the tightest fulfil: the sum of weights divided by the area,
-    /// relative to the mean area.
+    /// The limit that all cells but the tightest fulfil. A cell is compared by the sum of its
+    /// weights divided by its area, relative to the mean area.
     double usual_most() const {
         const double mean = mean_area();
         std::vector<double> relative;
@@ -92,8 +92,8 @@ private:
         return *limit;
     }
 
-    /// Limits the flows of each cell so that their sum is at most the larger of `most_weight` and
-    /// `most` times the cell's area.
+    /// Reduces the flows of each cell so that their sum is at most `most` times the cell's area, or
+    /// at most `most_weight` if that is larger.
     void cap_flows(double most) {
         std::vector<double> caps(count(), std::numeric_limits<double>::infinity());
         for (std::size_t cell = 0; cell < count(); ++cell) {

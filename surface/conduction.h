@@ -8,7 +8,7 @@
 namespace cascade {
 
 struct Conduction {
-    std::vector<double> areas;  ///< By cell, in units of `unit` squared.
+    std::vector<double> areas;  ///< The area of each cell, in units of `unit` squared.
     std::vector<double> flows;  ///< The weights of edges, equal on both sides and never negative.
 };
 

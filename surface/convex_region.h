@@ -12,7 +12,8 @@ class ConvexRegion {
 public:
     static constexpr std::uint32_t nothing = 0xffffffff;
     struct Edge {
-        Vector2d from;  ///< The start. The edge ends where the next edge starts, counterclockwise.
+        /// The start of the edge. The edge ends where the next edge starts, counterclockwise.
+        Vector2d from;
         std::uint32_t beyond = nothing;
     };
 
@@ -23,7 +24,7 @@ public:
     bool empty() const { return edges_.empty(); }
     void clear() { edges_.clear(); }
     double area() const;
-    /// The mean of the corners, or the origin if there are none.
+    /// The mean of the corners; the origin if the region is empty.
     Vector2d middle() const;
     /// The distance of the farthest corner from the origin.
     double farthest() const;

@@ -1,4 +1,4 @@
-// Adds lines as vectors of twice their angle, because lines have no sign. Fills in undetermined
+// Adds lines as vectors at twice their angle, because lines have no sign. Fills in undetermined
 // directions in layers, starting next to known directions.
 #include "surface/direction_field.h"
 
@@ -98,7 +98,8 @@ private:
     const TangentPlanes& planes_;
     const CodedDirections& coded_;
     std::vector<Vector2d>& codes_;
-    std::vector<std::uint32_t> layers_;  ///< The number of links from a known plane, or none.
+    /// The number of links from a known plane; `none` for planes not reached yet.
+    std::vector<std::uint32_t> layers_;
 };
 
 }  // namespace

@@ -32,7 +32,7 @@ struct TangentPlanes {
     std::vector<SurfacePlace> places;
     std::vector<TangentFrame> frames;
     std::vector<double> areas;
-    std::vector<std::size_t> ends;  ///< Plane k's links end before links[ends[k]].
+    std::vector<std::size_t> ends;  ///< The links of plane k end before links[ends[k]].
     std::vector<TangentLink> links;
 
     std::size_t size() const { return places.size(); }
@@ -45,13 +45,13 @@ struct TangentPlanes {
 /// One plane for each triangle, at its centroid, linked over its edges.
 TangentPlanes planes_of_triangles(const SurfaceMesh& mesh);
 
-/// Arrows: v and −v are different directions. Lines: v and −v are the same, and either may be
-/// returned.
+/// With arrows, v and −v are different directions. With lines, v and −v are the same, and either
+/// may be returned.
 enum class DirectionKind { arrows, lines };
 
-/// Projects vectors, one per plane, into the planes, and scales them to length 1. If a vector is
-/// not finite, or its projection is shorter than `least_part` of the longest vector, its direction
-/// is unknown. Starting next to known planes, each unknown direction becomes the mean of the
+/// Projects vectors, one per plane, into the planes, and scales them to length 1. A direction is
+/// unknown if its vector is not finite, or if the projection is shorter than `least_part` of the
+/// longest vector. Starting next to known planes, each unknown direction becomes the mean of the
 /// neighbours' directions, transported as if the surface were unfolded. In a component without
 /// known directions one plane gets its x axis. Results are finite unit vectors.
 std::vector<Vector3d> directions(const TangentPlanes& planes, std::span<const Vector3d> vectors,

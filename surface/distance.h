@@ -39,7 +39,7 @@ private:
     const SurfaceMesh& original_;
     Refinement refinement_;
     double longest_edge_ = 0;
-    /// One entry more than points. A point's triangles end where the next point's begin.
+    /// The start of each point's triangles in `around_`, and the end of the last point's triangles.
     std::vector<std::uint32_t> ends_;
     std::vector<std::uint32_t> around_;
 };
@@ -65,7 +65,7 @@ class SurfaceDistance {
 public:
     static constexpr std::uint32_t no_source = 0xffffffff;
     struct Reach {
-        double distance = 0;               ///< In units of the model. Infinite if no path exists.
+        double distance = 0;               ///< In units of the model. Infinite if there is no path.
         std::uint32_t source = no_source;  ///< The index of the nearest source.
     };
 
@@ -74,7 +74,7 @@ public:
         : SurfaceDistance(std::make_shared<const DistanceMesh>(mesh, cancel, options), sources,
                           cancel) {}
 
-    /// Finds distances of up to `reach`, in units of the model. A longer distance may come out as
+    /// Finds distances of at most `reach`, in units of the model. Longer distances may come out as
     /// infinite or too long.
     SurfaceDistance(std::shared_ptr<const DistanceMesh> mesh, std::span<const SurfacePlace> sources,
                     const std::atomic<bool>& cancel,
@@ -99,7 +99,7 @@ private:
     std::vector<Reach> reached_;        ///< One for each point of the refined mesh.
 };
 
-/// The distance of each cell.
+/// The distance of each cell's position.
 std::vector<double> distances_of_cells(const SurfaceDistance& distance, const SurfaceCells& cells);
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
-// Always cuts off the ear whose circumcircle reaches least far. A priority queue finds it. Outdated
-// ears in the queue are skipped.
+// Always cuts off the ear whose circumcircle reaches least far. A priority queue finds this ear.
+// Outdated ears in the queue are skipped.
 #include "surface/fill_hole.h"
 
 #include <algorithm>
@@ -10,7 +10,8 @@ namespace cascade {
 
 namespace {
 
-/// A vertex that may be cut off. `reach` is outdated if `ages_` of the vertex is no longer `age`.
+/// A vertex that may be cut off. `reach` is outdated if the vertex's entry in `ages_` is no longer
+/// `age`.
 struct Ear {
     double reach = 0;
     std::uint32_t tip = 0, age = 0;
@@ -65,7 +66,7 @@ private:
 
     /// Queues the vertex `tip` if it is an ear. The whole ring is visible from the origin. So a
     /// triangle contains no other point of the ring if its third side passes through the origin or
-    /// separates the triangle from it.
+    /// separates the triangle from the origin.
     void consider(std::uint32_t tip) {
         if (!is_closed_ && (tip == 0 || tip + 1 == ring_.size())) return;
         const Vector2d a = ring_[previous_[tip]], b = ring_[tip], c = ring_[next_[tip]];

@@ -31,7 +31,7 @@ double inner(Vector2d a, Vector2d b) { return dot(a, b); }
 template <typename Number>
 class ImplicitStep {
 public:
-    /// `unit` is the mean mass. Masses are divided by it.
+    /// `unit` is the mean mass, by which masses are divided.
     ImplicitStep(const DiffusionGraph<Number>& graph, double time, double unit, Team& team)
         : graph_(graph),
           time_(time / unit),
@@ -84,8 +84,8 @@ private:
     double mass(std::size_t k) const { return graph_.masses[k] / unit_; }
     double inverse(std::size_t k) const { return diagonal_[k] > 0 ? 1 / diagonal_[k] : 0; }
 
-    /// −time · L v at a node, where L is the graph's Laplacian: (L v)_i = Σ weight v_i − coupling
-    /// v_j.
+    /// −time · (L v)_i at node i = k, where L is the graph's Laplacian: (L v)_i = Σ_j (weight_ij
+    /// v_i − coupling_ij v_j).
     Number rest_at(const std::vector<Number>& v, std::size_t k) const {
         Number flow{};
         for (std::size_t l = first(k); l < graph_.ends[k]; ++l) {

@@ -23,16 +23,16 @@ struct GraphLink {
 template <typename Number>
 struct DiffusionGraph {
     std::vector<double> masses;     ///< The nodes' masses. Positive for nodes with links.
-    std::vector<std::size_t> ends;  ///< Node k's links end before links[ends[k]].
+    std::vector<std::size_t> ends;  ///< The links of node k end before links[ends[k]].
     std::vector<GraphLink<Number>> links;
 };
 
-/// The solution of mass_i dv_i/dt = Σ coupling v_j − weight v_i after `time`, by four implicit
-/// Euler steps, each solved by conjugate gradients until the relative residual is 10⁻⁶ (J.
-/// Shewchuk, "An introduction to the conjugate gradient method without the agonizing pain", 1994,
-/// appendix B3; diagonal preconditioner). Stable for any time. A time of more than 100 times the
-/// total mass counts as this limit. Numbers that are not finite spread to all connected nodes. The
-/// result is the same with any number of threads. It is undefined if `cancel` became true.
+/// The solution, after `time`, of mass_i dv_i/dt = Σ_j (coupling_ij v_j − weight_ij v_i). Takes
+/// four implicit Euler steps, each solved by conjugate gradients until the relative residual is
+/// 10⁻⁶ (J. Shewchuk, "An introduction to the conjugate gradient method without the agonizing
+/// pain", 1994, appendix B3; diagonal preconditioner). Stable for any time. The time is limited to
+/// 100 times the total mass. Numbers that are not finite spread to all connected nodes. The result
+/// is the same with any number of threads. It is undefined if `cancel` became true.
 std::vector<double> diffused(const DiffusionGraph<double>& graph, std::vector<double> values,
                              double time, Team& team, const std::atomic<bool>& cancel);
 std::vector<Vector2d> diffused(const DiffusionGraph<Vector2d>& graph, std::vector<Vector2d> values,

@@ -18,11 +18,12 @@ struct KeyDirection {
 };
 
 /// Each plane gets the direction of the nearest key, transported along the shortest path of planes
-/// as if the surface were unfolded there. In components without a key, the key nearest in space is
-/// projected into the first plane of the component and transported from there. Ignores keys that
-/// are not finite, are perpendicular to the surface, or share a plane with an earlier one. Without
-/// keys the field is directions() of zero vectors. The field jumps where regions of different keys
-/// meet, so use smoothed_directions() next. The result is undefined if `cancel` became true.
+/// as if the surface were unfolded along this path. In components without a key, the key nearest in
+/// space is projected into the first plane of the component and transported from there. Ignores
+/// keys that are not finite, are perpendicular to the surface, or share a plane with an earlier
+/// one. Without keys the field is directions() of zero vectors. The field jumps where regions of
+/// different keys meet, so use smoothed_directions() next. The result is undefined if `cancel`
+/// became true.
 std::vector<Vector3d> key_directions(const SurfaceMesh& mesh, const TangentPlanes& planes,
                                      std::span<const KeyDirection> keys, DirectionKind kind,
                                      const std::atomic<bool>& cancel);

@@ -1,5 +1,5 @@
-// Cells of vertices and of faces follow the mesh. Cells of positions are Voronoi cells. The options
-// are checked first.
+// Cells around points and cells of faces follow the mesh. Cells around spread positions are Voronoi
+// cells. The options are checked first.
 #include "surface/make_cells.h"
 
 #include "core/counted.h"
@@ -27,7 +27,7 @@ namespace {
 constexpr double rounding_of_weights = 1e-9;
 
 /// Distributes the area of a triangle to its corners by Voronoi regions. If an angle is obtuse, its
-/// corner gets one half and the others a quarter each (Meyer et al., figure 4).
+/// corner gets half of the area and each other corner a quarter (Meyer et al., figure 4).
 void share_area(const IntrinsicMesh& mesh, std::uint32_t t, std::vector<double>& areas) {
     const double area = mesh.area(t);
     std::array<double, 3> cotangents;
@@ -41,7 +41,7 @@ void share_area(const IntrinsicMesh& mesh, std::uint32_t t, std::vector<double>&
         return;
     }
     std::array<double, 3>
-        parts;  // For edge k: a² cot / 8, the part that each of its two ends gets.
+        parts;  // For edge k: a² cot, which is 8 times the area that each end of the edge gets.
     double sum = 0;
     for (std::uint32_t k = 0; k < 3; ++k) {
         parts[k] = mesh.lengths[t][k] * mesh.lengths[t][k] * cotangents[k];
@@ -54,7 +54,8 @@ void share_area(const IntrinsicMesh& mesh, std::uint32_t t, std::vector<double>&
     }
 }
 
-/// The smallest weight that a corner may have at a triangle's centre. At the centroid it is 1/3.
+/// The smallest weight that a corner may have at a triangle's centre. At the centroid, each weight
+/// is 1/3.
 constexpr double least_weight = 1.0 / 9;
 
 /// Sums over the triangles of a face.
@@ -66,8 +67,8 @@ struct Face {
     double nearest = std::numeric_limits<double>::infinity();
 };
 
-/// The position on a triangle nearest to a point. If the position is at the triangle's border, it
-/// is approximate.
+/// The position on a triangle nearest to a point. A position at the triangle's border is
+/// approximate.
 SurfacePlace place_near(const SurfaceMesh& mesh, std::uint32_t t, Vector3d point) {
     const Vector3d origin = mesh.corner(t, 0);
     const Vector3d x = unit(mesh.corner(t, 1) - origin);
@@ -177,7 +178,8 @@ SurfaceCells vertex_cells(const SurfaceMesh& mesh) {
 std::vector<std::uint32_t> cells_of_triangles(const SurfaceMesh& mesh) {
     std::vector<std::uint32_t> cells;
     cells.reserve(mesh.triangles.size());
-    std::unordered_map<std::uint32_t, std::uint32_t> numbers;  // By face. Used for look-up only.
+    // The cell of each face. Used for look-up only.
+    std::unordered_map<std::uint32_t, std::uint32_t> numbers;
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         const std::uint32_t face = mesh.faces.empty() ? t : mesh.faces[t];
         const auto next = static_cast<std::uint32_t>(numbers.size());

@@ -1,4 +1,4 @@
-// Makes the cells of a surface, of every kind.
+// Makes the cells of a surface: around spread positions, or from the faces or points of a mesh.
 #pragma once
 
 #include "core/parallel.h"
@@ -13,11 +13,11 @@
 
 namespace cascade {
 
-/// One cell around each point, with the point's index. Its area is the mixed Voronoi area. The
-/// weight of the Voronoi edge across an edge is (cot α + cot β) / 2, where α and β are the angles
-/// opposite that edge (M. Meyer, M. Desbrun, P. Schröder and A. Barr, "Discrete
-/// Differential-Geometry Operators for Triangulated 2-Manifolds", 2003, sections 3.3 and 3.5). This
-/// is the method of linear finite elements with lumped masses.
+/// One cell around each point, with the point's index. The cell's area is the mixed Voronoi area.
+/// The weight of the Voronoi edge across an edge of the mesh is (cot α + cot β) / 2, where α and β
+/// are the angles opposite the edge of the mesh (M. Meyer, M. Desbrun, P. Schröder and A. Barr,
+/// "Discrete Differential-Geometry Operators for Triangulated 2-Manifolds", 2003, sections 3.3 and
+/// 3.5). This is the method of linear finite elements with lumped masses.
 ///
 /// Obtuse angles could give negative weights, with which substance would flow towards higher
 /// concentration. So areas and weights are taken from the intrinsic Delaunay triangulation of the
@@ -35,10 +35,10 @@ SurfaceCells vertex_cells(const SurfaceMesh& mesh);
 /// A triangle's cell is at its circumcentre, another polygon's cell at its centroid. The distance
 /// across an edge is the sum of the two cells' distances from the edge's line. Without obtuse
 /// angles the cells therefore form a Voronoi diagram and diffusion is consistent (R. Eymard, T.
-/// Gallouët and R. Herbin, "Finite Volume Methods", 2000, section 9). The circumcentre of an obtuse
-/// triangle is outside of it, and that of a right-angled triangle is on an edge. Such a centre is
-/// moved inside until every corner has a weight of at least 1/9, which bounds the weights of edges.
-/// Diffusion then has an error, of up to a tenth on squares cut in two.
+/// Gallouët and R. Herbin, "Finite Volume Methods", 2000, section 9). An obtuse triangle has its
+/// circumcentre outside, and a right-angled triangle on an edge. Such a centre is moved inside
+/// until every corner has a weight of at least 1/9, which bounds the weights of edges. Diffusion
+/// then has an error, of up to a tenth on squares cut in two.
 SurfaceCells face_cells(const SurfaceMesh& mesh);
 
 /// The cell of each triangle's face.
@@ -52,13 +52,13 @@ enum class CellKind : std::uint32_t {
 
 struct CellOptions {
     CellKind kind = CellKind::places;
-    // The members from here on are for `places` only.
+    // The members below are for `places` only.
     std::uint64_t count = 0;  ///< 1 … 2³² − 2.
     std::uint32_t seed = 1;
     int rounds = relaxing_rounds;  ///< Number of rounds of relaxation.
     /// Null for an isotropic metric. The anisotropy must exist while cells are made.
     const Anisotropy* anisotropy = nullptr;
-    /// Receives the completed part of the work, 0 … 1; may be empty.
+    /// Called with the completed part of the work, 0 … 1; may be empty.
     std::function<void(double)> progress = {};
 };
 
@@ -73,8 +73,8 @@ double memory_of_cells(const SurfaceMesh& mesh, const CellOptions& options);
 Result<void> check_cells(const SurfaceMesh& mesh, const CellOptions& options);
 
 /// Makes the cells. Fails if the number of cells is out of range, or if the surface has more
-/// components than cells, since each component needs a cell. Also fails unless the anisotropy has a
-/// direction and a ratio ≥ 1 for each triangle. Throws std::bad_alloc. The result is the same with
+/// components than cells, since each component needs a cell. Also fails if an anisotropy lacks a
+/// direction or a ratio ≥ 1 for some triangle. Throws std::bad_alloc. The result is the same with
 /// any number of threads. It is undefined if `cancel` became true.
 Result<SurfaceCells> make_cells(const SurfaceMesh& mesh, const CellOptions& options, Team& team,
                                 const std::atomic<bool>& cancel);

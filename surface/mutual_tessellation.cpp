@@ -1,5 +1,5 @@
 // Inserts positions one by one, in random rounds along a curve, and flips edges until the new
-// triangles within each old one are Delaunay. Locates positions by walking over edges.
+// triangles within each old triangle are Delaunay. Locates positions by walking over edges.
 #include "surface/mutual_tessellation.h"
 
 #include "core/hash.h"
@@ -14,8 +14,8 @@ namespace cascade {
 
 namespace {
 
-/// Interleaves the bits of two numbers. The result is a position on a curve. Points that are near
-/// each other on the curve are near each other in the plane.
+/// Interleaves the bits of two numbers. The result is a position on a Morton curve: points that are
+/// near each other on the curve are near each other in the plane.
 std::uint64_t along_curve(const Steps& steps) {
     std::uint64_t key = 0;
     for (int bit = 24; bit >= 0; --bit) {
@@ -25,8 +25,8 @@ std::uint64_t along_curve(const Steps& steps) {
     return key;
 }
 
-/// Orders positions by triangle. Within a triangle, random rounds follow each other, each with
-/// twice as many positions as the previous one, and each round follows a curve.
+/// Orders positions by triangle. Within a triangle, positions are divided at random into rounds,
+/// each with twice as many positions as the round before. Each round follows a curve.
 std::vector<std::uint32_t> insertion_order(const std::vector<LatticePlace>& places) {
     using Entry = std::tuple<std::uint32_t, int, std::uint64_t, std::uint32_t>;
     std::vector<Entry> entries;
@@ -83,7 +83,7 @@ public:
     }
 
 private:
-    /// The old triangle that contains a face. Splitting a face or an edge copies this property.
+    /// The old triangle that contains a face. Splitting a face or an edge copies this value.
     std::uint32_t& origin(FaceHandle f) { return mesh_.property(origin_, f); }
     std::uint32_t origin(FaceHandle f) const { return mesh_.property(origin_, f); }
 
@@ -124,7 +124,8 @@ private:
         }
     }
 
-    /// The position of a point in an old triangle that contains it, possibly on a side.
+    /// The position of a point in the old triangle `triangle`, which contains the point, possibly
+    /// on a side.
     Steps steps_in(std::uint32_t triangle, VertexHandle v) const {
         const std::uint32_t point = number(v);
         if (point < old_.points.size()) {
@@ -145,7 +146,8 @@ private:
                frame_[2] * (static_cast<double>(steps[2]) / lattice_steps);
     }
 
-    /// The end of a walk to a point: a face, and one of its edges if the point lies on it.
+    /// The end of a walk to a point: a face that contains the point, and an edge of the face if the
+    /// point lies on this edge.
     struct Found {
         FaceHandle face;
         HalfedgeHandle edge;
@@ -217,7 +219,7 @@ private:
     const std::vector<LatticePlace>& places_;
     MutualTessellation made_;
     OpenMesh::FPropHandleT<std::uint32_t> origin_;
-    std::vector<std::uint32_t> place_of_point_;  ///< For each new point, the index of its position.
+    std::vector<std::uint32_t> place_of_point_;  ///< The index of each new point's position.
     std::uint32_t framed_ = TriangleEdge::none;
     FlatTriangle frame_;  ///< The frame of the old triangle `framed_`.
     std::vector<HalfedgeHandle> suspects_;

@@ -12,16 +12,16 @@
 namespace cascade {
 
 struct MutualTessellation {
-    /// Per position: its point, which is an old point if the position coincides with one, otherwise
-    /// a new point.
+    /// The point of each position: an old point if the position coincides with one, otherwise a new
+    /// point.
     std::vector<std::uint32_t> point_of_place;
     /// The unit normal of the old surface at each point. 0 where no area surrounds the point.
     std::vector<Vector3d> normals;
 };
 
 /// Triangulates each triangle with its corners and the positions in it. The result is the
-/// constrained Delaunay triangulation, whose constraints are the triangle's sides with the
-/// positions on them. Turk adds the shortest edges first, in O(n²). Here positions are inserted one
+/// constrained Delaunay triangulation, in which the triangle's sides, divided by the positions on
+/// them, are edges. Turk adds the shortest edges first, in O(n²). Here positions are inserted one
 /// by one and edges flipped (C. L. Lawson, "Software for C¹ surface interpolation", 1977), in a
 /// random order that is nearly along a curve (N. Amenta, S. Choi and G. Rote, "Incremental
 /// constructions con BRIO", SoCG 2003), in O(n log n). Every new triangle has exactly the

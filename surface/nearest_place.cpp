@@ -1,4 +1,4 @@
-// A bounding volume hierarchy, split at the median triangle.
+// Searches a bounding volume hierarchy that is split at the median triangle.
 #include "surface/nearest_place.h"
 
 #include <algorithm>

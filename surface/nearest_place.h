@@ -11,13 +11,13 @@ namespace cascade {
 
 /// The triangles of a mesh in a tree of bounding boxes, each split along its longest side at the
 /// median triangle. A search takes O(log n) steps if the point is near the surface. If several
-/// positions are equally near, it finds the one on the triangle with the lowest index. The mesh
-/// must outlive the tree unchanged. Searches are thread-safe.
+/// positions are equally near, a search finds the position on the triangle with the lowest index.
+/// The mesh must outlive the tree unchanged. Searches are thread-safe.
 class NearestPlace {
 public:
     explicit NearestPlace(const SurfaceMesh& mesh);
 
-    /// The nearest position. Empty if the mesh has no triangles or the point is not finite.
+    /// The nearest position; nullopt if the mesh has no triangles or the point is not finite.
     std::optional<SurfacePlace> find(Vector3d point) const;
 
 private:

@@ -1,5 +1,6 @@
 // Farthest-first traversal. Taking a cell shortens the distances of the cells around it. The search
-// for these cells ends where another taken cell is nearer, so searches become smaller and smaller.
+// for these cells ends at cells that are nearer to another taken cell, so searches become smaller
+// and smaller.
 #include "surface/nested_order.h"
 
 #include <functional>
@@ -27,7 +28,7 @@ public:
             const auto [distance, negative] = farthest_.top();
             farthest_.pop();
             const auto cell = static_cast<std::size_t>(-negative);
-            // A nearer entry has replaced this one.
+            // A shorter distance has replaced this entry.
             if (distance != distances_[cell]) continue;
             order.push_back(static_cast<std::uint32_t>(cell));
             take(cell);
@@ -60,7 +61,8 @@ private:
     }
 
     const SurfaceCells& cells_;
-    std::vector<double> distances_;           ///< Distances to the nearest cell taken so far.
+    /// The distance of each cell to the nearest cell taken so far.
+    std::vector<double> distances_;
     std::priority_queue<Distance> farthest_;  ///< Cells not taken yet. Some entries are outdated.
 };
 

@@ -26,14 +26,15 @@ using SurfaceFunction = std::function<Position(double sx, double sy)>;
 ///     Ṽ⁻¹ = | inverse_11  inverse_12 |      A tensor A in those directions is Ṽ⁻¹ A Ṽ⁻ᵀ in
 ///           |     0       inverse_22 |      columns and rows. (The paper's last step prints ṼᵀAṼ.)
 ///
-/// The default unit of length is √(area of the surface / number of cells), so that patterns have
-/// the same size in cells as with the same script in the plane. If `detail` divides cells, the
+/// The default unit of length is √(area of the surface / number of cells). Patterns are then as
+/// large, measured in cells, as with the same script in the plane. If `detail` divides cells, the
 /// number of undivided cells counts.
 struct SurfaceMetric {
-    Field inverse_11, inverse_12, inverse_22;  ///< In cells per unit.
-    Field area;                                ///< s: the cell's area, in square units.
-    Field flow_11, flow_12, flow_22;           ///< s Ṽ⁻¹ Ṽ⁻ᵀ: maps differences to flows.
-    double unit = 0;                           ///< The unit of length, in units of the function.
+    Field inverse_11, inverse_12, inverse_22;  ///< The elements of Ṽ⁻¹, in cells per unit.
+    Field area;                                ///< The cell's area s, in square units.
+    /// The elements of s Ṽ⁻¹ Ṽ⁻ᵀ, which maps differences to flows.
+    Field flow_11, flow_12, flow_22;
+    double unit = 0;  ///< The unit of length, in units of the function.
 };
 
 /// Measures the surface at the centre of every cell, by central differences in binary64. Rounds

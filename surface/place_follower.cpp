@@ -1,4 +1,4 @@
-// Goes from triangle to nearer triangle, starting at the last position.
+// Goes from triangle to nearer triangle, starting at the previous position.
 #include "surface/place_follower.h"
 
 #include "core/check.h"
@@ -81,12 +81,12 @@ PlaceFollower::Inside PlaceFollower::inside_of(const SurfaceMesh& mesh, std::uin
 }
 
 /// The steepness of the surrounding triangles on each side of this triangle. A point of a
-/// surrounding triangle has a height over this triangle's plane, and a distance from this triangle
-/// in the plane. The result is the largest ratio of height to distance, but at most 1: even with a
-/// larger ratio, no triangle bent by less than 90° comes nearer to a point whose height is less
-/// than its distance from the edges. Infinite if a triangle is bent by 90° or more. Almost all
-/// surrounding triangles are beyond the line of an edge or beyond a corner. Height and distance are
-/// linear there, so it is enough to test corners.
+/// surrounding triangle has a height over this triangle's plane and, in this plane, a distance from
+/// this triangle. The result is the largest ratio of height to distance, but at most 1. A larger
+/// ratio needs no larger result: no triangle bent by less than 90° comes nearer to a point whose
+/// height is less than its distance from the edges. Infinite if a triangle is bent by 90° or more.
+/// Almost all surrounding triangles are beyond the line of an edge or beyond a corner. Height and
+/// distance are linear there, so it is enough to test corners.
 std::array<float, 2> PlaceFollower::steepness_around(const SurfaceMesh& mesh,
                                                      std::uint32_t triangle,
                                                      std::span<const std::uint32_t> around) const {
@@ -94,7 +94,8 @@ std::array<float, 2> PlaceFollower::steepness_around(const SurfaceMesh& mesh,
     const std::array<std::uint32_t, 3> own = mesh.triangles[triangle];
     const std::array outward{unit(inside.of_second + inside.of_third), -unit(inside.of_second),
                              -unit(inside.of_third)};
-    // Outward directions: first by edge, numbered by the opposite corner, then by corner.
+    // Outward directions: first the directions across the three edges, numbered by the opposite
+    // corner, then the directions at the three corners.
     std::array<Vector3d, 6> directions;
     for (std::uint32_t k = 0; k < 3; ++k) {
         directions[k] = outward[k];
@@ -130,7 +131,7 @@ std::array<float, 2> PlaceFollower::steepness_around(const SurfaceMesh& mesh,
 }
 
 /// The nearest position on a triangle. If the squared distance exceeds `most`, the result may have
-/// an infinite distance instead.
+/// an infinite distance.
 PlaceFollower::Near PlaceFollower::measured(std::uint32_t number, Vector3d point,
                                             double most) const {
     const Inside& inside = insides_.data()[number];
@@ -140,8 +141,8 @@ PlaceFollower::Near PlaceFollower::measured(std::uint32_t number, Vector3d point
     if (first > 0 && second > 0 && third > 0) {
         return {number, true, square, over.height, over.weights};
     }
-    // The greatest distance by which the point is beyond the line of an edge. The triangle is on
-    // the other side of this line.
+    // The greatest distance by which the point is beyond the line of an edge. The triangle itself
+    // is on the other side of this line.
     const double beyond =
         std::max({-first * double{inside.heights[0]}, -second * double{inside.heights[1]},
                   -third * double{inside.heights[2]}});

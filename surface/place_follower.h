@@ -15,12 +15,12 @@
 
 namespace cascade {
 
-/// Goes from triangle to triangle, starting at the one found last, as long as a triangle that
+/// Goes from triangle to triangle, starting at the triangle found last, as long as a triangle that
 /// shares a corner is nearer to the point. This takes a few dozen nanoseconds, where NearestPlace
 /// takes a microsecond. The position found is nearer than all positions around it. It is the
 /// nearest on the whole surface unless the point has come nearer to another sheet of the surface.
-/// If several positions are equally near, it is the one on the triangle with the lowest index. The
-/// mesh must have triangles and outlive the object unchanged. Thread-safe.
+/// If several positions are equally near, the one on the triangle with the lowest index is found.
+/// The mesh must have triangles and outlive the object unchanged. Thread-safe.
 class PlaceFollower {
 public:
     explicit PlaceFollower(const SurfaceMesh& mesh);
@@ -31,9 +31,9 @@ public:
         double distance = 0;     ///< The distance of the point from the position.
         bool is_border = false;  ///< Whether the position is on a boundary of the surface.
     };
-    /// Starts at `from`, the triangle of an earlier position. Searches the whole surface instead if
-    /// there is no such triangle, if the way is long, or if it ends at a boundary, because another
-    /// part of the surface beyond the boundary may be nearer. Empty if the point is not finite.
+    /// Starts at `from`, the triangle of an earlier position. Searches the whole surface if there
+    /// is no such triangle, if the way is long, or if the way ends at a boundary, because another
+    /// part of the surface beyond the boundary may be nearer. nullopt if the point is not finite.
     std::optional<Found> find(Vector3d point, std::uint32_t from) const;
 
     /// Prefetches the data that stay() needs.
@@ -46,12 +46,12 @@ public:
     /// A point above or below the inside of a triangle.
     struct Over {
         std::array<double, 3> weights;
-        double height = 0;  ///< Height above the triangle.
+        double height = 0;  ///< The height of the point above the triangle.
         Vector3d normal;    ///< The triangle's normal, of length 1.
         std::uint32_t triangle = 0;
     };
-    /// Does the same as find(), but quickly, if the nearest position is inside the triangle `from`
-    /// or a triangle next to it. Otherwise returns nothing.
+    /// A faster find() for points whose nearest position is inside the triangle `from` or a
+    /// triangle next to it. Returns nullopt for other points.
     std::optional<Over> stay(Vector3d point, std::uint32_t from) const {
         for (int moves = 0; moves <= most_moves_of_stay && from < triangles_.size(); ++moves) {
             const Inside& inside = insides_.data()[from];
@@ -66,8 +66,8 @@ public:
         return std::nullopt;
     }
 
-    /// The results of stay() for several points, side by side, so that compilers vectorise the
-    /// computation.
+    /// The results of stay() for several points, in separate arrays, so that compilers vectorise
+    /// the computation.
     struct AllOver {
         static constexpr std::size_t most = 8;
         using Numbers = std::array<double, most>;
@@ -76,7 +76,7 @@ public:
         std::array<std::uint32_t, most> triangles;
         std::array<bool, most> is_over{};  ///< False where stay() found nothing.
     };
-    /// Does the work of stay() for several points, at most as many as AllOver has room for.
+    /// Calls stay() for several points, at most as many as AllOver has room for.
     void stay(std::span<const Vector3d> points, std::span<const std::uint32_t> from,
               AllOver& all) const;
 
@@ -93,7 +93,8 @@ private:
         /// The steepness of the surrounding triangles on the side of the normal, and on the other
         /// side: see steepness_around().
         std::array<float, 2> steepness{};
-        std::array<std::uint32_t, 3> across{};  ///< By corner: the triangle over the opposite edge.
+        /// For each corner, the triangle over the opposite edge.
+        std::array<std::uint32_t, 3> across{};
 
         Over over(Vector3d point) const {
             const Vector3d at = point - corner;
@@ -108,8 +109,8 @@ private:
                                             within.begin());
         }
         /// Whether the position in this triangle is nearer than all positions on the surrounding
-        /// triangles. This is so if the surrounding triangles rise towards the point less steeply
-        /// than a ball around the point that touches this triangle. Returns false very near to an
+        /// triangles. For this, the surrounding triangles must rise towards the point less steeply
+        /// than the ball around the point that touches this triangle. Returns false very near to an
         /// edge, where rounding could decide.
         bool is_nearest(const Over& over) const {
             return is_nearest(over.height,
@@ -134,8 +135,9 @@ private:
     };
     struct Triangle {
         std::array<Vector3d, 3> corners;
-        std::array<bool, 3> is_open{};  ///< By corner: whether the opposite edge is at a boundary.
-        std::array<bool, 3> is_rim{};   ///< By corner: whether the corner is at a boundary.
+        /// For each corner, whether the opposite edge is at a boundary.
+        std::array<bool, 3> is_open{};
+        std::array<bool, 3> is_rim{};  ///< Whether each corner is at a boundary.
     };
     struct Near {
         std::uint32_t triangle = 0;
@@ -151,7 +153,7 @@ private:
     Found found(const Near& near, Vector3d point) const;
 
     NearestPlace all_;
-    AlignedArray<Inside> insides_;  ///< By triangle, many per page of memory.
+    AlignedArray<Inside> insides_;  ///< The data of each triangle. Many share a page of memory.
     std::vector<Triangle> triangles_;
     std::vector<std::uint32_t> ends_;  ///< The triangles around t end before around_[ends_[t]].
     std::vector<std::uint32_t>

@@ -12,8 +12,9 @@ namespace cascade {
 
 namespace {
 
-constexpr double weight_tolerance = 1e-6;  ///< Tolerance of weights.
-constexpr std::int64_t stride = 1 << 6;    ///< Steps between separated positions.
+constexpr double weight_tolerance = 1e-6;
+/// The number of lattice steps between separated positions.
+constexpr std::int64_t stride = 1 << 6;
 
 bool is_on(const SurfaceMesh& mesh, const SurfacePlace& place) {
     double sum = 0;
@@ -87,8 +88,8 @@ public:
     }
 
     void separate() {
-        // The index on the spiral of the last point tried. The next coinciding position continues
-        // from there.
+        // The index on the spiral of the last point tried. For the next coinciding position, the
+        // search continues from there.
         std::int64_t tried = 0;
         for (std::size_t k = 1; k < order_.size(); ++k) {
             if (order_[k].first != order_[k - 1].first) tried = 0;

@@ -27,8 +27,8 @@ struct LatticePlace {
 
     /// The index of the corner at the position, or 3 if it is not at a corner.
     std::uint32_t corner() const;
-    /// The edge whose interior contains the position, or 3. Edge k goes from corner k to corner k +
-    /// 1.
+    /// The edge whose interior contains the position, or 3 if there is none. Edge k goes from
+    /// corner k to corner k + 1.
     std::uint32_t edge() const;
 };
 
@@ -38,14 +38,14 @@ inline std::int64_t turn(const Steps& p, const Steps& q, const Steps& r) {
     return (q[1] - p[1]) * (r[2] - p[2]) - (q[2] - p[2]) * (r[1] - p[1]);
 }
 
-/// Converts a position on edge `edge` to steps in the triangle across, whose edge there is
-/// `edge_there`.
+/// Converts a position on edge `edge` of a triangle to steps in the triangle across this edge. In
+/// the other triangle, the edge has the index `edge_there`.
 Steps steps_across(const Steps& steps, std::uint32_t edge, std::uint32_t edge_there);
 
 /// Rounds positions to the lattice so that no two coincide. If positions coincide, the first stays,
 /// and the others move inside their triangle by about 2⁻¹⁸ of its size. Fails with the index of a
-/// position that is on no triangle of the mesh: weights below −10⁻⁶, a sum of weights that differs
-/// from 1 by more than 10⁻⁶, or weights that are not finite.
+/// position that is on no triangle of the mesh, because a weight is below −10⁻⁶ or not finite, or
+/// because the sum of the weights differs from 1 by more than 10⁻⁶.
 Result<std::vector<LatticePlace>> to_lattice(const SurfaceMesh& mesh,
                                              std::span<const SurfacePlace> places);
 

@@ -21,7 +21,7 @@ double value_at(const SurfaceMesh& mesh, const std::vector<Number>& point_values
     return value;
 }
 
-/// value_at() for many positions, such as the positions of cells.
+/// Does the same as value_at() for many positions, such as the positions of cells.
 template <typename Number>
 std::vector<double> values_at(const SurfaceMesh& mesh, const std::vector<Number>& point_values,
                               std::span<const SurfacePlace> places) {
@@ -32,8 +32,9 @@ std::vector<double> values_at(const SurfaceMesh& mesh, const std::vector<Number>
 }
 
 /// The texture coordinates at a position, (0, 0) at the lower left and (1, 1) at the upper right of
-/// the image, which repeats beyond. Linear in each triangle, whose corners have their own
-/// coordinates, so that seams are possible. Empty if the model has no texture coordinates.
+/// the image. Beyond these limits the image repeats. Coordinates are linear in each triangle, whose
+/// corners have their own coordinates, so that seams are possible. nullopt if the model has no
+/// texture coordinates.
 inline std::optional<std::array<double, 2>> texture_place_at(const SurfaceMesh& mesh,
                                                              const SurfacePlace& place) {
     if (mesh.texture.empty()) return std::nullopt;

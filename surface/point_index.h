@@ -34,7 +34,7 @@ public:
             for (const Entry& entry : entries_) look_at(entry);
             return;
         }
-        // Enlarged slightly to allow for rounding in box_of().
+        // The radius is enlarged slightly to allow for rounding in box_of().
         const double wide = radius + 1e-6 * reach_;
         const Box first = box_of(centre - Vector3d{wide, wide, wide});
         const Box last = box_of(centre + Vector3d{wide, wide, wide});

@@ -9,7 +9,7 @@ namespace cascade {
 
 namespace {
 
-/// An edge that may be cut. Outdated if its triangle no longer has it.
+/// An edge that may be cut. The entry is outdated if the triangle no longer has this edge.
 struct LongEdge {
     double length = 0;
     TriangleEdge place;
@@ -21,8 +21,8 @@ struct LongEdge {
     }
 };
 
-/// A queue of edges, the longest first. Of equally long edges, the first is the edge of the
-/// triangle with the lowest index.
+/// A queue of edges, the longest first. If edges are equally long, the edge of the triangle with
+/// the lowest index comes first.
 class LongEdges {
 public:
     LongEdges(const SurfaceMesh& mesh, double longest) : mesh_(mesh), longest_(longest) {
@@ -40,7 +40,8 @@ public:
         }
     }
 
-    /// The longest edge in the queue that still exists; none if the queue is empty.
+    /// The longest edge in the queue that still exists. If the queue is empty, the result does not
+    /// exist.
     TriangleEdge take() {
         while (!heap_.empty()) {
             std::pop_heap(heap_.begin(), heap_.end());

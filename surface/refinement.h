@@ -44,8 +44,7 @@ private:
 
     SurfaceMesh mesh_;
     std::vector<Cut> cuts_;
-    std::vector<Cuts>
-        cuts_of_;  ///< By triangle: the list of cuts of the triangle since it was created.
+    std::vector<Cuts> cuts_of_;  ///< The cuts of each triangle since it was created.
 };
 
 }  // namespace cascade

@@ -67,14 +67,15 @@ public:
                      std::size_t end, const std::vector<Vector2f>& moved);
 
 private:
-    std::vector<float> x_, y_;  ///< Movements of neighbours, later replaced by their forces.
+    /// The movements of neighbours, later replaced by the neighbours' forces.
+    std::vector<float> x_, y_;
 };
 
 constexpr float core_strength = 4;
 /// Positions whose squared distance in radii is smaller than this count as coinciding.
 constexpr float least_square = 1e-14F;
 
-/// The direction in which a position is pushed away from a coinciding one.
+/// The direction in which a position is pushed away from another position at the same point.
 Vector2f own_direction(std::uint32_t number) {
     const double angle = 2 * std::numbers::pi / 4294967296.0 * pcg4d({number, 0, 0, 0})[0];
     return {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
@@ -156,14 +157,14 @@ constexpr double skin = 0.25;
 /// neighbours and would oscillate without this limit.
 constexpr double longest_step = 0.06;
 /// Lists are rebuilt when more than one in this many positions has moved by half the skin. A few
-/// positions always move far. Rebuilding the lists for their sake would not make the result more
+/// positions always move far, but rebuilding the lists for them would not make the result more
 /// uniform.
 constexpr std::size_t places_per_far_one = 100;
 /// Lists are rebuilt when their age in rounds exceeds the number of rounds so far divided by this.
 /// So they are rebuilt often in early rounds, in which positions move farthest.
 constexpr int rounds_per_age = 4;
-/// The number of separate rounds at the end. They move only positions that have another position
-/// nearer than `crowd` radii.
+/// The number of additional rounds at the end, in which only positions move that have another
+/// position nearer than `crowd` radii.
 constexpr int settling_rounds = 12;
 constexpr double crowd = 0.4;
 
@@ -217,7 +218,8 @@ private:
         Repulsion repulsion;
         /// Number of positions that have moved by half the skin or more.
         std::size_t far_moved = 0;
-        std::vector<std::uint32_t> crowded;  ///< Unsorted, with repetitions.
+        /// The crowded positions, unsorted and with repetitions.
+        std::vector<std::uint32_t> crowded;
     };
 
     Part& part_of(int thread) {
@@ -245,8 +247,8 @@ private:
         }
     }
 
-    /// The positions, in ascending order, that have another position nearer than uniformly spread
-    /// positions ever have. Only active positions may have moved since the last call.
+    /// The positions, in ascending order, that have another position nearer than any positions that
+    /// are spread uniformly. Only active positions may have moved since the last call.
     std::vector<std::uint32_t> crowded_places(const PointIndex& index) {
         team_.run([&](int thread) {
             Part& part = part_of(thread);
@@ -267,11 +269,11 @@ private:
         return crowded;
     }
 
-    /// The search radius of all lists, each in its own metric.
+    /// The search radius of all lists, in the metric of each list's position.
     double reach() const { return (1 + skin) * radius_; }
 
-    /// Updates the active positions in space and sorts all positions into boxes of the lists' usual
-    /// reach.
+    /// Updates the active positions in space. Sorts all positions into boxes that are as wide as
+    /// the usual reach of lists.
     PointIndex index_places() {
         for (const std::uint32_t k : active_) positions_[k] = position_of(mesh_, places_[k]);
         double side = reach();
@@ -283,7 +285,7 @@ private:
         return {positions_, side};
     }
 
-    /// Rebuilds the lists of the active positions.
+    /// Rebuilds the neighbour lists of the active positions.
     void find_others(const PointIndex& index) {
         team_.run([&](int thread) {
             Part& part = part_of(thread);
@@ -362,7 +364,8 @@ private:
     const std::atomic<bool>& cancel_;
     double radius_;
     EdgeShapes shapes_;
-    std::vector<Stretch> stretches_;  ///< By triangle. Empty if the metric is isotropic.
+    /// The stretch in each triangle. Empty if the metric is isotropic.
+    std::vector<Stretch> stretches_;
     /// Changes since the lists were made, in the frame of that time: the rotation of the frame of
     /// each position's triangle, and the movement of the position (in radii). A round reads
     /// `moved_` and writes `moving_`.

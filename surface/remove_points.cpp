@@ -7,10 +7,12 @@ namespace cascade {
 
 namespace {
 
-constexpr double boundary_may_move = 0.1;            ///< As a multiple of the spacing.
-constexpr double longest_boundary_edge = 2;          ///< As a multiple of the spacing.
-constexpr double high_care = 0.26, low_care = 0.09;  ///< Cosines of 75° and 85°.
-constexpr std::size_t most_tried = 24;  ///< For larger rings, not all triangulations are tried.
+/// The largest movement of a boundary, as a multiple of the spacing.
+constexpr double boundary_may_move = 0.1;
+/// The longest edge, as a multiple of the spacing.
+constexpr double longest_boundary_edge = 2;
+constexpr double high_care = 0.26, low_care = 0.09;  ///< The cosines of 75° and 85°.
+constexpr std::size_t most_tried = 24;  ///< In larger rings, not all triangulations are tried.
 constexpr double least_sine = 1e-9;
 
 bool is_fine(const TriangleQuality& quality, Care care) {
@@ -32,7 +34,8 @@ void PointRemoval::take_ring(std::uint32_t point) {
         ring_.push_back(number(mesh_.to_vertex_handle(spoke)));
 }
 
-/// The boundary runs from the ring's last point through `point` to the ring's first point.
+/// Whether removing a point from the boundary would move the boundary only a little. The boundary
+/// runs from the ring's last point through `point` to the ring's first point.
 bool PointRemoval::may_leave_boundary(std::uint32_t point) {
     const Vector3d from = place(ring_.back()), to = place(ring_.front());
     const double moved =
@@ -53,8 +56,8 @@ bool PointRemoval::has_point_twice() {
     return std::adjacent_find(sorted_.begin(), sorted_.end()) != sorted_.end();
 }
 
-/// Whether the hole can be closed by its last edge, or by its last three corners, without a
-/// duplicate edge or triangle.
+/// Whether the last edge that closes the hole, or the last three corners, make no duplicate edge or
+/// triangle.
 bool PointRemoval::may_close() {
     const HalfedgeHandle beyond =
         mesh_.opposite_halfedge_handle(mesh_.next_halfedge_handle(spokes_[0]));
@@ -84,7 +87,8 @@ TriangleQuality PointRemoval::quality(const RingTriangle& corners) const {
     return quality_of({place(a), place(b), place(c)}, {normals_[a], normals_[b], normals_[c]});
 }
 
-/// Whether the first and third corner are neighbours on the ring or not yet joined by an edge.
+/// Whether the first and third corner of a triangle are adjacent on the ring, or not joined by an
+/// edge yet.
 bool PointRemoval::is_new(const RingTriangle& corners) {
     const std::uint32_t reach =
         corners[2] > corners[0] ? corners[2] - corners[0] : corners[0] - corners[2];
@@ -120,7 +124,8 @@ std::vector<RingTriangle> PointRemoval::cut_ears_around(std::uint32_t point, Car
 }
 
 /// Cuts off each ear by flipping the edge from the point to the ear's tip. In the end, the three
-/// triangles around an inner point are merged into one. At a boundary, the last one is deleted.
+/// triangles around an inner point are merged into one. At a boundary, the last triangle is
+/// deleted.
 void PointRemoval::fill(std::span<const RingTriangle> triangles) {
     changed_.clear();
     for (const HalfedgeHandle spoke : spokes_) {

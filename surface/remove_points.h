@@ -26,10 +26,10 @@ public:
     /// Removes a point and triangulates the hole over its one-ring such that the worst triangle has
     /// the best score. Turk projects the ring to a tangent plane, where the ring may overlap
     /// itself. The method here needs no plane. It would take long for a ring of more than 24
-    /// points, so such a ring is unrolled into a plane and its ears are cut off. If the point must
-    /// stay, changes nothing and returns the reason. A point at a boundary is removed only if the
-    /// boundary moves by at most 1/10 of the spacing and the new edge is no longer than twice the
-    /// spacing.
+    /// points, so such a ring is unrolled into a plane and its ears are cut off. Returns nullopt if
+    /// the point was removed. Otherwise changes nothing and returns the reason why the point must
+    /// stay. A point at a boundary is removed only if the boundary moves by at most 1/10 of the
+    /// spacing and the new edge is no longer than twice the spacing.
     std::optional<WhyKept> remove(std::uint32_t point, Care care);
 
     /// The faces around the last removed point. The faces that are not deleted fill its hole.
@@ -52,10 +52,12 @@ private:
     HalfEdges& mesh_;
     const std::vector<Vector3d>& normals_;
     double spacing_;
-    /// By the first point of each boundary edge: the largest distance that the edge may have moved.
+    /// The largest distance by which each boundary edge may have moved, by the first point of the
+    /// edge.
     std::vector<double> moved_;
-    std::vector<HalfedgeHandle> spokes_;  ///< From the point to be removed, counterclockwise.
-    std::vector<std::uint32_t> ring_;     ///< The vertices at the ends of the spokes.
+    /// The half-edges from the removed point, counterclockwise.
+    std::vector<HalfedgeHandle> spokes_;
+    std::vector<std::uint32_t> ring_;  ///< The vertices at the ends of the spokes.
     bool is_closed_ = false;   ///< Whether the ring is closed: the point is not at a boundary.
     bool meets_edge_ = false;  ///< Whether a triangle was refused because an edge existed already.
     std::vector<FaceHandle> changed_;

@@ -1,5 +1,5 @@
-// Removes old points in rounds and improves edges after each. New triangles are tested strictly in
-// the first rounds and less strictly in later ones.
+// Removes old points in rounds and improves edges after each round. New triangles are tested
+// strictly in the first rounds and less strictly in later ones.
 #include "surface/retile.h"
 
 #include "mesh/half_edges.h"
@@ -57,7 +57,8 @@ private:
     std::vector<EdgeHandle> suspects_;
 };
 
-/// The least gain of a rating that counts. It is larger than rounding errors.
+/// A flip counts as an improvement only if it raises the rating by more than this, which is larger
+/// than rounding errors.
 constexpr double least_gain = 1e-9;
 constexpr double upside_down = 0.05;  ///< A mean cosine below this counts as upside down.
 
@@ -137,7 +138,7 @@ void EdgeFlipper::flip_if_better(EdgeHandle e) {
     for (const HalfedgeHandle side : {bc, ca, ad, db}) suspect(side);
 }
 
-constexpr int most_rounds = 16;  ///< The most rounds that try to remove points again.
+constexpr int most_rounds = 16;  ///< The largest number of rounds that try again to remove points.
 
 class Retiler {
 public:

@@ -55,8 +55,8 @@ Result<Retiled> retile(const SurfaceMesh& mesh, std::span<const SurfacePlace> pl
                        const std::atomic<bool>& cancel);
 
 /// Makes an attribute of the new surface from `values`, one for each position. An old point that
-/// remains gets the mean of its neighbours that have a value, beginning with the old points next to
-/// positions. Points of components without positions get NaN.
+/// remains gets the mean of its neighbours that have a value. The old points next to positions come
+/// first. Points of components without positions get NaN.
 PointAttribute attribute_of(const Retiled& retiled, std::string name,
                             std::span<const float> values);
 

@@ -1,6 +1,6 @@
 // Only the new points have values at first. Each old point that remains gets the mean of its
-// neighbours that already have a value. This goes layer by layer, beginning with the old points
-// next to new points.
+// neighbours that already have a value, layer by layer. The first layer is the old points next to
+// new points.
 #include "surface/retile.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace cascade {
 
 namespace {
 
-/// For each point from `first` on, the points around it, once for each triangle.
+/// For each point from `first` on, the points around it, each as often as they share a triangle.
 std::map<std::uint32_t, std::vector<std::uint32_t>> neighbours_from(const SurfaceMesh& mesh,
                                                                     std::size_t first) {
     std::map<std::uint32_t, std::vector<std::uint32_t>> neighbours;

@@ -1,5 +1,5 @@
 // Stratified sampling along a Morton curve. Within a connected component, each position has an
-// equal share of the area and is random within its share.
+// equal share of the area, and its place within the share is random.
 #include "surface/scatter.h"
 
 #include "core/hash.h"
@@ -17,8 +17,8 @@ namespace {
 /// A number in (0, 1) from a random word.
 double uniform(std::uint32_t word) { return (word + 0.5) / 4294967296.0; }
 
-/// The triangles, component after component, each in the order of a Morton curve through the cube
-/// around the surface.
+/// The triangles of one component after another. Within a component, triangles are in the order of
+/// a Morton curve through the cube around the surface.
 std::vector<std::uint32_t> in_order(const SurfaceMesh& mesh,
                                     const std::vector<std::uint32_t>& components) {
     const auto [low, high] = mesh.box();
@@ -41,13 +41,14 @@ std::vector<std::uint32_t> in_order(const SurfaceMesh& mesh,
     return order;
 }
 
-/// The number of positions on each component: by area, and at least 1 if there are enough.
+/// The number of positions on each component: in proportion to its area, but at least 1 if there
+/// are enough positions.
 std::vector<std::size_t> shared_out(const std::vector<double>& areas, std::size_t count) {
     std::vector<std::size_t> shares(areas.size(), 0);
     double area = std::accumulate(areas.begin(), areas.end(), 0.0);
     std::size_t left = count;
-    // A component with a share below 1 gets one position. The other components share the rest. This
-    // may reduce the shares of more components to below 1.
+    // A component with a share below 1 gets one position. The other components share the remaining
+    // positions. This may reduce the shares of more components to below 1.
     for (bool is_found = count >= areas.size(); is_found;) {
         is_found = false;
         const double each = area / static_cast<double>(left);
@@ -86,7 +87,8 @@ std::vector<SurfacePlace> scatter(const SurfaceMesh& mesh, std::size_t count, st
                                   const std::vector<double>& component_areas) {
     const std::vector<std::uint32_t> components = connected_components(mesh);
     const std::vector<std::uint32_t> order = in_order(mesh, components);
-    std::vector<double> sums;       // Running sums of areas in that order, within each component.
+    // Running sums of areas in the order of `order`, within each component.
+    std::vector<double> sums;
     std::vector<std::size_t> ends;  // The ends of components in `sums`.
     for (std::size_t k = 0; k < order.size(); ++k) {
         const bool is_first = k == 0 || components[order[k]] != components[order[k - 1]];

@@ -25,9 +25,10 @@ struct VoronoiEdge {
 struct SurfaceCells {
     std::vector<SurfacePlace> places;
     std::vector<double> areas;
-    std::vector<std::size_t> ends;   ///< Cell i's edges end before edges[ends[i]].
-    std::vector<VoronoiEdge> edges;  ///< Cell after cell, in ascending order of neighbours.
-    double bare_area = 0;            ///< The area of the surface's components without cells.
+    std::vector<std::size_t> ends;  ///< The edges of cell i end before edges[ends[i]].
+    /// Edges of cell 0, then of cell 1, and so on. A cell's edges are sorted by neighbour.
+    std::vector<VoronoiEdge> edges;
+    double bare_area = 0;  ///< The area of the surface's components without cells.
 
     std::span<const VoronoiEdge> edges_of(std::size_t cell) const {
         const std::size_t first = cell == 0 ? 0 : ends[cell - 1];

@@ -6,7 +6,8 @@
 namespace cascade {
 
 /// Three perpendicular unit vectors: the axes of a triangle's own frame (mesh/flat.h) and its
-/// outward normal. For a triangle without area, any such vectors, the first along its longest edge.
+/// outward normal. For a triangle without area they are any three such vectors, the first along its
+/// longest edge.
 struct TangentFrame {
     Vector3d along;   ///< The x axis: from corner 0 to corner 1.
     Vector3d across;  ///< The y axis, to the left of `along`.

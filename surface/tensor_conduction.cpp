@@ -49,7 +49,7 @@ TensorConduction::TensorConduction(const SurfaceMesh& mesh, const SurfaceCells& 
     limit();
 }
 
-/// Adds links without flows. Their distances are those in space.
+/// Adds a link without flow for each diagonal. The distance of such a link is measured in space.
 void TensorConduction::add_diagonals(const SurfaceMesh& mesh, const CellTriangles& found) {
     std::vector<std::vector<std::uint32_t>> added(links_.places.size());
     for (const auto& [one, other] : found.diagonals) {
@@ -73,7 +73,7 @@ void TensorConduction::add_diagonals(const SurfaceMesh& mesh, const CellTriangle
 
 void TensorConduction::number_pairs(const Conduction& conduction) {
     pairs_.resize(links_.edges.size());
-    std::size_t edge = 0;  // Of the conduction, which has no diagonals.
+    std::size_t edge = 0;  // An index into `conduction.flows`, which leaves out diagonals.
     for (std::size_t cell = 0, link = 0; cell < areas_.size(); ++cell) {
         for (; link < links_.ends[cell]; ++link) {
             const VoronoiEdge& to = links_.edges[link];
@@ -96,8 +96,8 @@ std::size_t TensorConduction::link_between(std::uint32_t from, std::uint32_t to)
     return static_cast<std::size_t>(&*found - links_.edges.data());
 }
 
-/// Adds the corner between the directions to the previous and the next cell. Corners whose
-/// unfolding is turned over are left out.
+/// Adds the corner of a triangle at `cell`, between the directions to the previous and the next
+/// cell. Corners that unfold with the wrong orientation are left out.
 void TensorConduction::add_corner(std::uint32_t cell, std::size_t before, std::size_t after,
                                   std::size_t across, Vector2d previous, Vector2d next) {
     const double twice_area = cross(previous, next);

@@ -21,13 +21,13 @@ namespace cascade {
 ///     de_i/dt = Σ_j W_ij (e_j − e_i) / A_i,    W_ij = f_ij (γ_i + γ_j) / 2 + V_ij,
 ///
 /// where f and A are the flows and areas of Conduction. The energy ½ Σ V_ij (e_j − e_i)² over all
-/// links is that of linear finite elements, Σ S/3 ½ (v · ∇e)² over the corners of all triangles
-/// between cells, where S is the area of the triangle, v belongs to the cell at the corner, and
-/// ∇e is measured in that cell's plane. V_ij = V_ji, so Σ A e is conserved. The energy is never
-/// negative although some V are, so no wave grows.
+/// links equals the energy of linear finite elements, Σ S/3 ½ (v · ∇e)² over the corners of all
+/// triangles between cells. Here S is the area of the triangle, v belongs to the cell at the
+/// corner, and ∇e is measured in that cell's plane. V_ij = V_ji, so Σ A e is conserved. The energy
+/// is never negative although some V are, so no wave grows.
 ///
 /// Narrow triangles would make steps short. Let s be the largest sum of flows per area in any cell.
-/// Around a cell to whose links a v of length 1 would add terms with sizes that sum to more than s
+/// If a v of length 1 adds terms to the links of a cell whose absolute values sum to more than s
 /// per area, |v|² is reduced until they sum to s. So the bound of a step for the rate γ + |v|² in
 /// all directions holds for the tensor.
 class TensorConduction {
@@ -41,7 +41,7 @@ public:
     /// with which it shares a triangle but no edge. The links of cell k end before ends()[k].
     const std::vector<std::size_t>& ends() const { return links_.ends; }
     const std::vector<VoronoiEdge>& links() const { return links_.edges; }
-    /// The factor of (e_j − e_i) in de_i/dt for each link, if γ is 1 and v is 0 in all cells.
+    /// The factor of (e_j − e_i) in de_i/dt for each link if γ is 1 and v is 0 in all cells.
     std::vector<double> isotropic() const;
     /// The factors for the tensors of the cells: `low` is γ, and `along` is v in the frame of the
     /// cell, the component along `right` first.
@@ -52,7 +52,8 @@ private:
     /// the differences over the links to the other corners.
     struct Corner {
         std::uint32_t cell = 0;
-        std::uint32_t first = 0, second = 0, across = 0;  ///< Numbers of pairs of linked cells.
+        /// The numbers of three pairs of linked cells.
+        std::uint32_t first = 0, second = 0, across = 0;
         Vector2d a, b;
     };
 
@@ -65,8 +66,8 @@ private:
 
     SurfaceCells links_;  ///< The cells with all links.
     std::vector<double> areas_;
-    std::vector<std::uint32_t> pairs_;  ///< By link: the number of its pair of cells.
-    std::vector<double> flows_;         ///< By pair; 0 for diagonals.
+    std::vector<std::uint32_t> pairs_;  ///< The number of the pair of cells that each link joins.
+    std::vector<double> flows_;         ///< The flow of each pair; 0 for diagonals.
     std::vector<Corner> corners_;
 };
 

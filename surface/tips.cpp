@@ -16,13 +16,13 @@
 namespace cascade {
 namespace {
 
-/// A peak is not a tip if it is lower than the first fraction of the highest peak, or lower than
-/// the second fraction of the mean distance. Such peaks are bumps of the surface, or errors of
-/// means over a few sources.
+/// A peak is not a tip if it is lower than `least_of_highest` times the highest peak, or lower than
+/// `least_of_mean` times the mean distance. Such peaks are bumps of the surface, or errors of means
+/// over a few sources.
 constexpr double least_of_highest = 0.05, least_of_mean = 0.03;
 constexpr std::size_t most_sources = 30;
-/// With this number of triangles, tips are found exactly enough. More triangles would only take
-/// longer.
+/// With this number of triangles, the positions of tips are exact enough. More triangles would only
+/// take longer.
 constexpr std::size_t fine_enough = 10'000;
 
 /// A corner of a triangle.
@@ -43,7 +43,7 @@ std::uint32_t main_triangle(const SurfaceMesh& mesh) {
 }
 
 /// For each point of the largest component, its mean distance from all of that component. Infinite
-/// elsewhere.
+/// for points of other components.
 std::vector<double> mean_distances(const SurfaceMesh& mesh, const std::atomic<bool>& cancel) {
     const auto prepared = std::make_shared<const DistanceMesh>(mesh, cancel, DistanceOptions{0});
     std::vector<std::vector<double>> from;
@@ -68,7 +68,7 @@ std::vector<double> mean_distances(const SurfaceMesh& mesh, const std::atomic<bo
             }
         }
     }
-    // Each source is weighted by the area that is nearest to it.
+    // The weight of each source is the area that is nearer to it than to any other source.
     std::vector<double> areas(from.size());
     for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
         for (const std::uint32_t point : mesh.triangles[k]) {
@@ -96,7 +96,7 @@ struct Peak {
 std::vector<Peak> peaks_of(const DistanceMesh& mesh, const std::vector<double>& values,
                            const std::vector<std::uint32_t>& falling) {
     std::vector<bool> is_under(values.size());
-    DisjointSets floods(values.size());  // Each is represented by its highest point.
+    DisjointSets floods(values.size());  // Each flood is represented by its highest point.
     std::vector<Peak> peaks;
     for (const std::uint32_t point : falling) {
         is_under[point] = true;

@@ -15,9 +15,10 @@ namespace cascade {
 /// "Topology Matching for Fully Automatic Similarity Estimation of 3D Shapes", 2001). A peak's
 /// height is its persistence, measured from the pass to a higher peak (H. Edelsbrunner, D. Letscher
 /// and A. Zomorodian, "Topological Persistence and Simplification", 2002). A peak counts if its
-/// height is at least a twentieth of the highest peak's. Returns at most `most_tips`, by falling
-/// height. A ball has none. Only the connected component with the largest area has tips. The result
-/// is undefined if `cancel` became true. Throws std::bad_alloc.
+/// height is at least a twentieth of the highest peak's height, and at least 3 % of the mean of the
+/// function. Returns at most `most_tips` positions, the highest peaks first. A ball has no tips.
+/// Only the connected component with the largest area has tips. The result is undefined if `cancel`
+/// became true. Throws std::bad_alloc.
 std::vector<Vector3d> tips_of(const SurfaceMesh& mesh, const std::atomic<bool>& cancel);
 
 inline constexpr std::size_t most_tips = 16;

@@ -11,8 +11,8 @@
 namespace cascade {
 
 /// The shape of every triangle relative to each of its edges: the position of the third corner
-/// along the edge and to its left, as multiples of the edge's length. 48 bytes per triangle.
-/// Thread-safe.
+/// along the edge and to the left of the edge, as multiples of the edge's length. 48 bytes per
+/// triangle. Thread-safe.
 class EdgeShapes {
 public:
     explicit EdgeShapes(const SurfaceMesh& mesh);
@@ -30,7 +30,7 @@ private:
 
 /// Unfolds patches of one surface, nearest edges first, and each triangle once. Where the surface
 /// is curved, triangles may overlap or leave gaps in the plane. G. Turk, "Texturing Surfaces Using
-/// Reaction-Diffusion" (1992), section 4.3.2, unfolds adjacent polygons exactly and others
+/// Reaction-Diffusion" (1992), section 4.3.2, unfolds adjacent polygons exactly and all others
 /// approximately. Not thread-safe. Takes four bytes per triangle.
 ///
 /// A path along a surface is at least as long as the straight line in space. An image in the plane
@@ -47,9 +47,9 @@ public:
         FlatTriangle flat;
     };
 
-    /// Whether a point in the plane, at this squared distance from the position, can be the image
-    /// of a point at that squared distance in space. Allows an error of a tenth, because unfolding
-    /// is not exact.
+    /// Whether a point in the plane, at distance √`square_in_plane` from the position, can be the
+    /// image of a point at distance √`square_in_space`. Allows an error of a tenth, because
+    /// unfolding is not exact.
     static bool is_image(double square_in_plane, double square_in_space) {
         return square_in_plane >= 0.81 * square_in_space;
     }
@@ -58,7 +58,7 @@ public:
     /// the plane of the position's triangle, in its frame, with the position at the origin. Valid
     /// until the next call.
     std::span<const Piece> around(const SurfacePlace& place, double radius);
-    /// Does the same as around() above, but measures distances in a metric of that frame.
+    /// Does the same, but measures distances in a metric, which is given in the triangle's frame.
     std::span<const Piece> around(const SurfacePlace& place, double radius, const Stretch& metric);
 
     /// Whether the last patch contains all triangles that are connected with the position's
@@ -72,9 +72,9 @@ public:
     }
 
 private:
-    /// An edge to a triangle not visited yet, in a heap with the nearest on top. Edges that meet in
-    /// the nearest corner are equally near, and the one found first is on top. The order is total,
-    /// so that results do not depend on the library's heap.
+    /// An edge to a triangle that is not yet visited. A heap has the nearest edge on top. Edges
+    /// that meet in the nearest corner are equally near, and the edge found first is on top. The
+    /// order is total, so that results do not depend on the library's heap.
     struct Front {
         double square = 0;  ///< The squared distance.
         std::uint32_t piece = 0, edge = 0;
@@ -95,7 +95,7 @@ private:
     std::vector<Piece> pieces_;
     std::vector<Front> fronts_;
     Vector3d position_;  ///< The position in space around which the surface is unfolded.
-    std::vector<std::uint32_t> marks_;  ///< Per triangle: first_mark_ + 1 + index of its piece.
+    std::vector<std::uint32_t> marks_;  ///< first_mark_ + 1 + the index of the triangle's piece.
     std::uint32_t first_mark_ = 0;
     bool is_everything_ = false;
 };

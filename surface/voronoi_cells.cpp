@@ -24,7 +24,8 @@ struct Claim {
 /// The results of one thread, cell after cell.
 struct Found {
     std::vector<Claim> claims;
-    std::vector<VoronoiEdge> edges;  ///< As found by each cell, in ascending order of neighbours.
+    /// As each cell has found them. A cell's edges are sorted by neighbour.
+    std::vector<VoronoiEdge> edges;
 };
 
 /// Finds the regions of some cells. One object per thread.
@@ -40,8 +41,8 @@ public:
           anisotropy_(anisotropy),
           unfolding_(mesh, shapes) {}
 
-    /// Finds the region of a cell. Unfolds all of the surface that affects the region, at least to
-    /// `reach`.
+    /// Finds the region of a cell. Unfolds the whole part of the surface that affects the region,
+    /// at least as far as `reach`.
     void find(std::uint32_t cell, double reach, Found& found) {
         position_ = positions_[cell];
         double ratio = 1;
@@ -78,7 +79,7 @@ private:
         Vector2d place;
     };
 
-    /// The distance of the farthest corner of a patch.
+    /// The distance from the cell to the farthest corner of a patch.
     double size_of(std::span<const Unfolding::Piece> pieces) const {
         double size = 0;
         for (const Unfolding::Piece& piece : pieces) {
@@ -105,8 +106,8 @@ private:
                   });
     }
 
-    /// Claims all points that are nearer to the cell than to its neighbours. Returns the largest
-    /// distance of a claimed point.
+    /// Claims all points that are nearer to the cell than to its neighbours. Returns the distance
+    /// of the farthest claimed point.
     double claim_all(std::uint32_t cell, std::span<const Unfolding::Piece> pieces, double reach,
                      Found& found) {
         ConvexRegion region = ConvexRegion::square(reach);
@@ -174,7 +175,7 @@ private:
     ConvexRegion part_;
 };
 
-/// Concatenates the threads' results, which puts them in the order of cells.
+/// Concatenates the results of all threads. The results are then in the order of cells.
 template <typename T>
 std::vector<T> joined(std::vector<Found>& found, std::vector<T> Found::*part) {
     std::vector<T> all;
@@ -201,7 +202,7 @@ void share_areas(const SurfaceMesh& mesh, const std::vector<Claim>& claims, Surf
     for (const Claim& claim : claims) {
         cells.areas[claim.cell] += claim.area / claimed[claim.triangle] * mesh.area(claim.triangle);
     }
-    std::vector<std::uint32_t> next;  // Owned triangles that may have neighbours without owners.
+    std::vector<std::uint32_t> next;  // Triangles with an owner whose neighbours may have no owner.
     for (std::uint32_t t = 0; t < claimed.size(); ++t) {
         if (claimed[t] <= 0) continue;
         const auto& around = mesh.across[t];
@@ -225,7 +226,8 @@ void share_areas(const SurfaceMesh& mesh, const std::vector<Claim>& claims, Surf
     }
 }
 
-/// The entry of this neighbour in a list of edges sorted by neighbour; null if there is none.
+/// The entry of this neighbour in a list of edges sorted by neighbour; null if the list lacks the
+/// neighbour.
 const VoronoiEdge* edge_to(std::uint32_t neighbour, std::span<const VoronoiEdge> edges) {
     const auto found = std::lower_bound(edges.begin(), edges.end(), neighbour,
                                         [](const VoronoiEdge& edge, std::uint32_t number) {
@@ -235,10 +237,10 @@ const VoronoiEdge* edge_to(std::uint32_t neighbour, std::span<const VoronoiEdge>
 }
 
 /// Averages the values that the two cells of each edge have found. An edge found by only one cell
-/// gets half its length. When called, `cells` must have the edges as each cell has found them.
+/// gets half its length. Before the call, `cells` must have the edges as each cell has found them.
 void match_edges(SurfaceCells& cells) {
     SurfaceCells matched;
-    // Edges that the neighbour has found, but the cell has not.
+    // Edges that the neighbour has found, but this cell has not.
     std::vector<std::pair<std::uint32_t, VoronoiEdge>> unseen;
     for (std::uint32_t cell = 0; cell < cells.ends.size(); ++cell) {
         for (const VoronoiEdge& edge : cells.edges_of(cell)) {

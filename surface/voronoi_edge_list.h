@@ -13,9 +13,9 @@ public:
     /// itself and edges without length. `distance` is positive.
     void add(std::uint32_t a, std::uint32_t b, double length, double distance);
 
-    /// Sets the edges of cells 0 … count − 1. A merged edge has the sum of the lengths. Its
-    /// distance is chosen so that its weight, length / distance, is the sum of the weights. The
-    /// order of calls of add() only affects rounding.
+    /// Sets the edges of cells 0 … count − 1. The length of a merged edge is the sum of the
+    /// lengths. Its distance is chosen so that its weight, length / distance, is the sum of the
+    /// weights. The order of calls of add() only affects rounding.
     void put_into(SurfaceCells& cells, std::size_t count);
 
 private:

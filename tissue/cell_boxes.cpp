@@ -1,5 +1,5 @@
-// Boxes that are adjacent along x are adjacent in memory. So the cells of three boxes along x are
-// one range.
+// Boxes that are adjacent along x are adjacent in memory, so the cells of three such boxes are one
+// range.
 #include "tissue/cell_boxes.h"
 
 #include <cmath>
@@ -9,8 +9,8 @@
 namespace cascade {
 namespace {
 
-/// Below this number of cells, all pairs are compared. This takes less time than sorting because it
-/// has no branches.
+/// Below this number of cells, all pairs are compared. Comparing has no branches, so it takes less
+/// time than sorting.
 constexpr std::size_t most_compared = 48;
 
 }  // namespace
@@ -43,12 +43,12 @@ CellBoxes::CellBoxes(const std::vector<BoxedCell>& cells, const NeighbourRule& r
         low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
         high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
-    // Slightly larger than the widest distance, because box numbers are rounded.
+    // Boxes are slightly wider than the widest distance, because box numbers are rounded.
     lay_out({low.x, low.y, low.z}, {high.x, high.y, high.z}, 2 * widest * (1 + 1e-9), cells.size());
     fill(cells);
 }
 
-/// Compares candidates without branches, since no processor could predict them.
+/// Compares all candidates without branches, because no processor could predict the branches.
 template <bool is_periodic>
 void CellBoxes::look(const BoxedCell& own, std::int64_t first, std::int64_t last,
                      NeighbourKeys& found) const {

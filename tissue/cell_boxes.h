@@ -12,11 +12,11 @@
 
 namespace cascade {
 
-/// The data of a cell for a search.
+/// The data about a cell that a search needs.
 struct BoxedCell {
     Vector3d place;
-    /// The cell's contributions to the distance at which two cells count as neighbours. The
-    /// contributions of both cells are added.
+    /// Two cells are neighbours if their distance is less than the larger of NeighbourRule::near
+    /// and the sum of both cells' `reach`, plus the sum of both cells' `slack`.
     double reach = 0, slack = 0;
     std::uint32_t cell = 0, rank = 0;
 };
@@ -28,7 +28,7 @@ inline BoxedCell boxed(const CellPlaces& cells, std::uint32_t cell, const Neighb
     return {cells.places[cell], rule.reach * radius, slack_of(rule, skin, radius), cell,
             cells.ranks[cell]};
 }
-/// Half the distance at which two cells like this one are neighbours.
+/// Half the distance at which two cells are neighbours if both are like this cell.
 inline double width_of(const BoxedCell& cell, const NeighbourRule& rule) {
     return std::max(cell.reach, rule.near / 2) + cell.slack;
 }
@@ -36,7 +36,7 @@ inline double width_of(const BoxedCell& cell, const NeighbourRule& rule) {
 inline double nearest_image(double difference, double period) {
     return period > 0 ? difference - period * std::nearbyint(difference / period) : difference;
 }
-/// Whether two cells are neighbours. The result does not depend on the order of the two.
+/// Whether two cells are neighbours. The result is the same if the two are exchanged.
 template <bool is_periodic>
 bool are_near(const BoxedCell& own, const BoxedCell& other, const NeighbourRule& rule) {
     Vector3d apart = other.place - own.place;
@@ -53,7 +53,7 @@ inline bool repeats(const NeighbourRule& rule) { return rule.period != std::arra
 /// The neighbours found for a cell.
 class NeighbourKeys {
 public:
-    /// Memory for the cells to be found next and for their ranks, with a little more room than
+    /// Memory for the cells that are found next and for their ranks. It has a little more room than
     /// needed.
     struct Room {
         std::uint32_t* cells;
@@ -103,8 +103,8 @@ private:
 };
 
 /// The numbers of boxes along an axis, which repeat after `count` boxes. If the tissue is not
-/// periodic, boxes with the same number are far apart, so cells that do not belong together are
-/// excluded by their distance.
+/// periodic, boxes with the same number are far apart. Their cells are excluded later because of
+/// their distance.
 struct BoxAxis {
     double low = 0, inverse_side = 0;
     std::int64_t count = 1;
@@ -115,8 +115,8 @@ struct BoxAxis {
         const auto number = static_cast<std::int64_t>(box) % count;
         return number < 0 ? number + count : number;
     }
-    /// Calls `visit` with the numbers of the boxes before, at and after `box`. If some of these
-    /// numbers are equal, calls it only once for each.
+    /// Calls `visit` with the numbers of the boxes before, at and after `box`. Calls it only once
+    /// for numbers that are equal.
     void visit_near(std::int64_t box, const auto& visit) const {
         if (count < 3) {
             for (std::int64_t k = 0; k < count; ++k) visit(k);
@@ -134,7 +134,7 @@ public:
     /// `cells` must not be empty.
     CellBoxes(const std::vector<BoxedCell>& cells, const NeighbourRule& rule);
 
-    /// Adds the keys of all of a cell's neighbours in these boxes.
+    /// Adds all neighbours of a cell in these boxes to `found`.
     void find(const BoxedCell& own, NeighbourKeys& found) const;
 
 private:

@@ -9,13 +9,14 @@ namespace {
 
 /// Cells are reordered when the fraction of far links has grown by more than this.
 constexpr double far_part_to_order = 0.1;
-/// Lists should stay valid for this number of steps in which cells move as in the last step.
+/// The number of steps for which lists should stay valid if cells move as in the last step.
 constexpr double steps_of_lists = 6;
 constexpr double most_skin = 1;
-/// The movement expected in a step, as a multiple of the movement in the last step, and the largest
-/// part of the skin that the expected movement may take.
+/// The movement expected in a step, as a multiple of the movement in the last step. The expected
+/// movement is limited to the fraction `part_of_skin` of the skin.
 constexpr double expected_steps = 1.5, part_of_skin = 0.8;
-/// The part of the available width that a skin may take. The rest is a margin for rounding.
+/// The largest fraction of the available width that a skin may take. The rest is a margin for
+/// rounding.
 constexpr double part_of_room = 1 - 1e-6;
 /// The smallest number of cells that is worth reordering. Fewer cells are always near each other in
 /// memory.
@@ -94,15 +95,15 @@ void CellLists::end_step(Tissue& tissue) {
                });
 }
 
-/// A skin for a cell whose list should stay valid for a few steps. It is derived from the cell's
-/// movement in the last step.
+/// A skin with which a cell's list stays valid for a few steps, derived from the cell's movement in
+/// the last step. At least `least`.
 double CellLists::skin_of(const Tissue& tissue, std::size_t cell, double least) const {
     const double wanted = steps_of_lists * double{tissue.restlessness[cell]};
     return std::max(least, std::min(most_skin, wanted));
 }
 
-/// The largest number of links that fit into the memory for the list and the table. Padding takes a
-/// few entries of the table.
+/// The largest number of links for which the memory allows a list and a table of links. Padding
+/// takes a few more entries of the table.
 double CellLists::most_links() const {
     return most_bytes_ / (sizeof(std::uint32_t) + 2 * sizeof(std::int16_t));
 }
@@ -156,7 +157,8 @@ Result<void> CellLists::renew_restless(const Tissue& tissue) {
     each_place(tissue, species_, tissue.species,
                [&](std::size_t cell, Vector3d place, double radius) {
                    // The movement for which the present list must still be valid. It is limited to
-                   // a part of the skin, because a new list at this position would not allow more.
+                   // a part of the skin, because even a new list at this position would not allow a
+                   // longer movement.
                    const double way = std::min(expected_steps * double{tissue.restlessness[cell]},
                                                part_of_skin * double{skins_[cell]});
                    if (watch_->reaches(cell, place, radius, slack_of(rule_, way, radius))) return;

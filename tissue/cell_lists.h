@@ -17,29 +17,29 @@ namespace cascade {
 
 class CellLists {
 public:
-    /// Builds lists with `skin`, or with a wider skin for fast cells. Lists that take more than
-    /// `most_bytes` are refused.
+    /// Builds lists with `skin`, or with a wider skin for fast cells. Refuses lists that take more
+    /// than `most_bytes`.
     CellLists(const NeighbourRule& rule, double skin, double most_bytes,
               const TissueSpecies& species, Team& team);
 
     /// Builds the lists for this state, whose positions must be finite. If `is_full` is true, the
-    /// lists stay valid in every step in which no cell moves too far for one step. Throws
+    /// lists stay valid in every step that the limit of movement in one step allows. Throws
     /// std::bad_alloc.
     Result<void> build(const Tissue& tissue, const std::vector<Field>& state, bool is_full);
-    /// Builds the lists of the given cells, which are new or have moved in memory. No other cell
-    /// may have moved in memory or been changed from outside since the last search. Cells may have
+    /// Builds the lists of the given cells, which are new or have moved in memory. Since the last
+    /// search, no other cell may have moved in memory or been changed from outside. Cells may have
     /// been removed if no remaining cell has their index. Throws std::bad_alloc.
     Result<void> renew(const Tissue& tissue, std::span<const std::uint32_t> cells);
-    /// Builds the lists of some cells again: cells whose slack would not be enough for the next
-    /// step if they move as in the last step.
+    /// Builds new lists for the cells whose slack would not be enough in the next step if they move
+    /// as in the last step.
     Result<void> renew_restless(const Tissue& tissue);
-    /// Whether the lists are valid in this state, and also at positions that differ by up to
-    /// `around` from those of this state.
+    /// Whether the lists are valid in this state, and also if positions differ from this state by
+    /// up to and including `around`.
     bool reach(const Tissue& tissue, const std::vector<Field>& state, double around) const;
     /// Whether the lists of these cells are valid at their present positions.
     bool reach(const Tissue& tissue, std::span<const std::uint32_t> cells) const;
-    /// Whether so many links lead far away in memory that reordering cells would save time. True
-    /// before the first lists of a large tissue.
+    /// Whether so many links lead far away in memory that reordering cells would save time. For a
+    /// large tissue, true before the first lists are built.
     bool wants_order(const Tissue& tissue) const;
     /// Reorders the cells. Lists must be built afterwards. Throws std::bad_alloc.
     void put_in_order(Tissue& tissue);

@@ -19,8 +19,8 @@ void put(Tissue& tissue, const DivisionPlaces& places, std::size_t cell, Vector3
     tissue.set(places.species.place + 2, cell, held.z);
 }
 
-/// The order of cells in memory after some have divided and others have died. Gaps are filled by
-/// new cells and by the last cells in memory, so that few cells move.
+/// The order of cells in memory after some have divided and others have died. New cells and the
+/// last cells in memory fill the gaps, so that few cells move.
 struct NewPlaces {
     NewPlaces(std::size_t count, std::span<const CellEvent> events) : places(count) {
         std::iota(places.begin(), places.end(), std::uint32_t{0});
@@ -40,7 +40,7 @@ struct NewPlaces {
                 free.pop_back();
             }
         }
-        // `free` is sorted, the largest index first.
+        // `free` is sorted in descending order.
         for (std::size_t largest = 0; largest < free.size();) {
             const auto last = static_cast<std::uint32_t>(sources.size() - 1);
             if (free[largest] == last) {
@@ -55,13 +55,14 @@ struct NewPlaces {
         }
     }
 
-    std::vector<std::uint32_t> places;  ///< For each old index of a surviving cell: its new index.
-    /// For each new index: the old index of the cell, or of its mother if it is new.
+    std::vector<std::uint32_t> places;  ///< The new index of each surviving cell, by its old index.
+    /// By new index: the old index of the cell or, if the cell is new, of its mother.
     std::vector<std::uint32_t> sources;
-    std::vector<std::uint32_t> dividing;  ///< Old indices, in the order of the events.
+    /// Old indices of the dividing cells, in the order of the events.
+    std::vector<std::uint32_t> dividing;
     /// New indices of the new cells, in the order of `dividing`.
     std::vector<std::uint32_t> children;
-    std::vector<std::uint32_t> moved;  ///< New indices of other cells that have moved.
+    std::vector<std::uint32_t> moved;  ///< New indices of the other cells that have moved.
 };
 
 }  // namespace

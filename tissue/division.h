@@ -14,12 +14,12 @@ namespace cascade {
 
 /// The division or death of a cell.
 struct CellEvent {
-    std::uint32_t cell = 0;  ///< Its index in memory.
+    std::uint32_t cell = 0;  ///< The cell's index in memory.
     bool dies = false;       ///< Whether the cell dies. If not, it divides.
     double part = 1;         ///< The fraction of the step before the event.
     double left = 0;         ///< The time from the event to the end of the step.
-    /// If `left` > 0: the cell's species at the event, and their mean rates from the event to the
-    /// end of the step.
+    /// Only if `left` > 0: the values of the cell's species at the event, and their mean rates from
+    /// the event to the end of the step.
     std::vector<double> values = {}, mean_rates = {};
 };
 
@@ -40,8 +40,8 @@ struct Divided {
 
 /// Applies events, which must be in the order of the cells' numbers. A new cell has all values of
 /// its mother. The mother and the new cell are placed on opposite sides of the mother's position,
-/// at a distance of half her radius, along a direction. `directions` has one direction for each
-/// dividing cell, in the same order. A direction that is 0 or missing is random. New cells get
+/// at a distance of half the mother's radius, along a direction. `directions` has one direction for
+/// each dividing cell, in the same order. A direction that is 0 or missing is random. New cells get
 /// their numbers in the order of their mothers' numbers. Throws std::bad_alloc.
 Divided divide(Tissue& tissue, std::span<const CellEvent> events,
                std::span<const Vector3d> directions, const DivisionPlaces& places);

@@ -7,8 +7,8 @@
 namespace cascade {
 namespace {
 
-/// The largest number of divisions of a cell at one moment. A cell that exceeds it would never stop
-/// dividing.
+/// The largest number of divisions of a cell at one moment. A cell that exceeds this number would
+/// never stop dividing.
 constexpr int most_divisions_at_once = 10;
 
 }  // namespace
@@ -82,7 +82,7 @@ std::optional<TissueFailure> EventRounds::one_round(std::span<const CellEvent> e
     elsewhere.insert(elsewhere.end(), divided.moved.begin(), divided.moved.end());
     auto built = stepper_.cells_changed(divided.has_moved, elsewhere);
     if (built) built = stepper_.reach(tissue_.species);
-    // From here on only mothers and their new cells change.
+    // From here on, only mothers and their new cells change.
     if (built && !dividing.empty()) {
         restart(dividing, divided);
         built = carry(dividing, divided);
@@ -150,10 +150,10 @@ void EventRounds::restart(std::span<const CellEvent> dividing, const Divided& di
     tissue_.pad();
 }
 
-/// Advances both cells of a division from its moment to the end of the step, by Heun's method. They
-/// begin with the values that the undivided mother would have at the end of the step. So only the
-/// difference between their rates and hers is added, except for restarted values. All other cells
-/// are already at their positions at the end of the step.
+/// Advances both cells of a division from its moment to the end of the step, by Heun's method. Both
+/// begin with the values that the undivided mother would have at the end of the step. So this
+/// function adds only the difference between the cells' rates and the mother's rates, except for
+/// restarted values. All other cells are already at their positions at the end of the step.
 Result<void> EventRounds::carry(std::span<const CellEvent> dividing, const Divided& divided) {
     std::vector<std::uint32_t> cells;
     struct Value {

@@ -26,8 +26,8 @@ public:
           stepper_(stepper) {}
 
     /// Applies the events of a step and advances their cells to the end of the step, which is the
-    /// present. Then applies all events whose conditions hold at present, and repeats this until
-    /// there are none. If `are_all` is true, no condition holds at present for any cell without an
+    /// present. Then applies all events whose conditions hold at present, and repeats this until no
+    /// condition holds. If `are_all` is true, no condition holds at present for any cell without an
     /// event. Returns the failure that ends the stage, if there is one.
     std::optional<TissueFailure> happen(std::vector<CellEvent> events, bool are_all);
     /// Whether any cell has divided or died.
@@ -48,7 +48,8 @@ private:
     const TissueSpecies& species_;
     const TissueSchedule& schedule_;
     TissueStepper& stepper_;
-    /// By cell number: how often the cell or its mothers have divided at this moment.
+    /// By cell number: how often the cell, counting its line of mothers, has divided at this
+    /// moment.
     std::map<std::uint32_t, int> divisions_;
     bool has_changed_ = false;
     /// The cells of the last round's divisions, in the order of their numbers.

@@ -1,5 +1,5 @@
-// Searches for roots of margins on the cubic through a step. If conditions depend on their own cell
-// alone, they are evaluated for all candidates at once, each at its own moment.
+// Searches for roots of margins on the cubic through a step. If conditions depend only on the cell
+// itself, they are evaluated for all candidates at once, each at its own moment.
 #include "tissue/event_search.h"
 
 #include <algorithm>
@@ -31,11 +31,11 @@ struct Weights {
     double of_old, of_new, of_old_rate, of_new_rate;
 };
 
-/// The error of moments, as a fraction of a step, is 2 to this power. In single precision, species
-/// change by less than their rounding in shorter parts of a step.
+/// The exponent of the error of moments, which is 2^exponent of a step. In single precision,
+/// species change by less than their rounding in shorter parts of a step.
 int power_of(Precision precision) { return precision == Precision::single ? -16 : -20; }
 /// If margins are not smooth, the search takes at most this many probes more than bisection. If
-/// they are smooth, it takes a fifth of the probes of bisection.
+/// margins are smooth, it takes a fifth of the probes of bisection.
 constexpr int more_than_bisection = 4;
 
 /// The values of the conditions of dying and of dividing. A condition holds where its value is
@@ -45,7 +45,7 @@ constexpr Margins never{-1, -1};
 
 bool holds(const Margins& margins) { return margins[0] > 0 || margins[1] > 0; }
 
-/// The values of the conditions of some cells at a moment of the step.
+/// The values of the conditions for some cells at one moment of the step.
 struct Probe {
     double part = 0;
     std::vector<Margins> margins;
@@ -56,7 +56,7 @@ struct Probe {
     }
 };
 
-/// Reads planes of conditions at some cells.
+/// Reads the values of conditions for some cells from planes.
 std::vector<Margins> margins_of(const TissueRules::Conditions& conditions,
                                 const std::vector<Field>& values, const Tissue& tissue,
                                 std::span<const std::uint32_t> cells) {
@@ -74,9 +74,9 @@ std::vector<Margins> margins_of(const TissueRules::Conditions& conditions,
     return result;
 }
 
-/// The root between 0 and `width` of the parabola with the values `first` <= 0 at 0, `last` > 0 at
-/// `width` and `other` at `elsewhere`. If there is no third point, the root of the straight line
-/// through the first two.
+/// The root between 0 and `width` of a parabola. The parabola has the values `first` ≤ 0 at 0,
+/// `last` > 0 at `width` and `other` at `elsewhere`. If there is no third point, the root of the
+/// straight line through the first two.
 double root_of(double first, double last, double width, double other, double elsewhere) {
     const double slope = (last - first) / width;
     if (!(std::abs(elsewhere) > 0) || elsewhere == width) return -first / slope;
@@ -86,12 +86,12 @@ double root_of(double first, double last, double width, double other, double els
     return b > 0 ? -2 * first / (b + size) : (size - b) / (2 * bend);
 }
 
-/// A part of the step. For the cells that it concerns, no condition holds at its beginning, and a
-/// condition holds at its end. Estimates of the root narrow it alternately from both sides, so that
-/// it becomes short soon after the estimates are good. Where bisection would be faster, it is used
-/// instead, as in the ITP method (I. Oliveira, R. Takahashi, "An Enhancement of the Bisection
-/// Method Average Performance Preserving Minmax Optimality", ACM Trans. Math. Software 47(1),
-/// 2020).
+/// A part of the step that contains the events of some cells. At its beginning no condition holds
+/// for these cells. At its end a condition holds. Estimates of the root narrow the bracket
+/// alternately from both sides, so that it becomes short soon after the estimates are good.
+/// Bisection replaces the estimates where it would be faster, as in the ITP method (I. Oliveira, R.
+/// Takahashi, "An Enhancement of the Bisection Method Average Performance Preserving Minmax
+/// Optimality", ACM Trans. Math. Software 47(1), 2020).
 class Bracket {
 public:
     Bracket(std::vector<std::uint32_t> cells, std::vector<Margins> at_end, int power)
@@ -104,8 +104,8 @@ public:
     std::span<const std::uint32_t> cells() const { return cells_; }
     bool is_narrow() const { return !first.margins.empty() && width() <= wanted_; }
 
-    /// The next moment to probe, as a fraction of the step. The first is the beginning of the
-    /// bracket.
+    /// The next moment to probe, as a fraction of the step. The first call returns the beginning of
+    /// the bracket.
     double next() {
         if (first.margins.empty()) return 0;
         --left_;
@@ -148,7 +148,8 @@ private:
                 const double root = from > 0 ? 0
                                              : root_of(from, to, width(), other_.margins[n][k],
                                                        other_.part - first.part);
-                // Takes the middle if a margin is not finite. The negation makes this true for NaN.
+                // If the root is NaN because a margin is not finite, the comparison is false and
+                // the middle is taken.
                 least = std::min(least, !(root >= 0 && root <= width()) ? width() / 2 : root);
             }
         }
@@ -156,7 +157,7 @@ private:
     }
 
     std::vector<std::uint32_t> cells_;
-    Probe other_;  ///< A probe outside the bracket, or the first one.
+    Probe other_;  ///< A probe outside of the bracket or, at first, at its beginning.
     double wanted_;
     int left_;
     double beyond_, estimate_ = 0, estimate_before_ = -1;

@@ -29,12 +29,13 @@ struct StepCubic {
     std::vector<double> values(std::int64_t element, double part) const;
     /// Sets the species of one cell to values().
     void put(std::vector<Field>& state, std::int64_t element, double part) const;
-    /// Sets the species of all cells to values(). `state` may be the new state itself.
+    /// Sets the species of all cells to values(). `state` may be the new state of the step.
     void put_all(std::vector<Field>& state, double part) const;
 };
 
-/// The cells for which conditions hold in a state, in the order of their numbers. A cell that dies
-/// does not divide. Checks only the cells `among`, or all cells if it is empty.
+/// The events at a state: divisions and deaths of the cells whose conditions hold, in the order of
+/// the cells' numbers. A cell that dies does not divide. Checks only the cells in `among`, or all
+/// cells if `among` is empty.
 std::vector<CellEvent> events_at(const TissueRules::Conditions& conditions,
                                  std::vector<Field>& state, const Tissue& tissue,
                                  const StepMoment& moment, ValueRunner& runner,
@@ -45,12 +46,12 @@ std::vector<CellEvent> events_at(const TissueRules::Conditions& conditions,
 using Reach = std::function<Result<void>(const std::vector<Field>& state)>;
 
 /// The events within a step, sorted by moment, then by the cells' numbers. There is an event for
-/// each cell for which a condition holds at the end of the step. Its moment is the first at which
-/// the condition holds, with an error of 2^-20 of the step (2^-16 in single precision). Conditions
-/// whose values pass smoothly through 0 take about five evaluations, others up to 24. If conditions
-/// read other cells or the time, only the events of the first moment are found and returned,
-/// because they may change later conditions. No condition may hold at the beginning. Fails if
-/// `reach` fails.
+/// each cell for which a condition holds at the end of the step. Its moment is the first moment at
+/// which the condition holds, with an error of 2^-20 of the step (2^-16 in single precision). A
+/// condition whose value passes smoothly through 0 takes about five evaluations, any other at most
+/// 24. If conditions read other cells or the time, only the events of the first moment are found
+/// and returned, because they may change later conditions. No condition may hold at the beginning.
+/// Fails if `reach` fails.
 Result<std::vector<CellEvent>> events_within(const TissueRules::Conditions& conditions,
                                              const StepCubic& cubic, const Tissue& tissue,
                                              ValueRunner& runner, const Reach& reach);

@@ -1,5 +1,5 @@
-// Computes random positions by hashing. Each position takes four random words. One of them decides
-// whether the position is accepted.
+// Computes random positions by hashing. Each position takes four random words. The fourth word
+// decides whether the position is accepted.
 #include "tissue/founders.h"
 
 #include "core/hash.h"
@@ -13,7 +13,7 @@
 namespace cascade {
 namespace {
 
-constexpr std::size_t most_tries = 10'000;  ///< The most positions tried per founder.
+constexpr std::size_t most_tries = 10'000;  ///< The largest number of positions tried per founder.
 
 double fraction(std::uint32_t word) { return (word + 0.5) * 0x1p-32; }
 
@@ -29,7 +29,8 @@ public:
 
     struct Candidate {
         NearPlace place;
-        double threshold = 0;  ///< The position is accepted if its chance is above this.
+        /// The position is accepted if its chance is larger than this number.
+        double threshold = 0;
     };
     Candidate at(std::uint64_t number) const {
         const auto low = static_cast<std::uint32_t>(number);

@@ -1,5 +1,5 @@
 // Searches for neighbours of renewed cells in the boxes of the last search and among the renewed
-// cells themselves. The boxes may still contain old marks of renewed cells.
+// cells themselves. The boxes still contain the old marks of renewed cells.
 #include "tissue/kept_lists.h"
 
 #include <algorithm>
@@ -8,10 +8,10 @@
 namespace cascade {
 namespace {
 
-/// All lists are built again when more than one in this many cells has been renewed since the last
-/// search of all cells.
+/// All lists are built again when, since the last search of all cells, more than one in this many
+/// cells has been renewed.
 constexpr std::size_t cells_of_a_renewed = 8;
-/// Up to this many cells are always renewed one by one.
+/// At most this many cells are always renewed one by one.
 constexpr std::size_t few_cells = 32;
 
 std::size_t far_links(std::uint32_t cell, std::span<const std::uint32_t> list) {
@@ -35,7 +35,7 @@ bool KeptLists::renew(std::span<const BoxedCell> cells, std::span<const std::uin
     for (const BoxedCell& cell : cells) {
         if (!(width_of(cell, search_.rule()) <= search_.widest())) return false;
     }
-    // There must be enough room for links even if all cells are neighbours of the renewed ones.
+    // There must be room for links even if every cell is a neighbour of every renewed cell.
     const auto links = static_cast<double>(lists_.neighbours.size());
     if (links + 2.0 * static_cast<double>(cells.size() * ranks.size()) > most_links) return false;
     slots_.resize(std::max(slots_.size(), ranks.size()), no_slot);
@@ -57,7 +57,7 @@ bool KeptLists::renew(std::span<const BoxedCell> cells, std::span<const std::uin
     return true;
 }
 
-/// Forgets an index that no longer belongs to a cell.
+/// Marks an index as `gone`, because it no longer belongs to a cell.
 void KeptLists::forget(std::uint32_t cell) {
     const std::uint32_t slot = std::exchange(slots_[cell], gone);
     if (slot >= renewed_.size()) return;
@@ -82,7 +82,7 @@ void KeptLists::find(const BoxedCell& cell, std::span<const std::uint32_t> ranks
     new_lists_.emplace_back(sorted.begin(), sorted.end());
 }
 
-/// Finds the lists of other cells that change. `count` is the number of cells.
+/// Finds which lists change because of `cells`, besides their own. `count` is the number of cells.
 void KeptLists::note_links(std::span<const BoxedCell> cells, std::uint32_t count) {
     kinds_.assign(slots_.size(), Kind::kept);
     list_numbers_.resize(slots_.size());
@@ -162,7 +162,7 @@ std::vector<bool> KeptLists::changed() const {
     return result;
 }
 
-/// Copies the lists of these cells unchanged.
+/// Copies the lists of cells [first, last) unchanged.
 void KeptLists::copy(std::uint32_t first, std::uint32_t last) {
     const std::uint32_t* const all = lists_.neighbours.data();
     const std::size_t begin = first == 0 ? 0 : lists_.ends[first - 1];
@@ -171,7 +171,7 @@ void KeptLists::copy(std::uint32_t first, std::uint32_t last) {
     for (std::uint32_t k = first; k <= last; ++k) next_.ends.push_back(lists_.ends[k] + shift);
 }
 
-/// Writes a list that replaces a cell's old one.
+/// Writes a new list in place of a cell's old one.
 void KeptLists::write(std::uint32_t cell, std::span<const std::uint32_t> neighbours) {
     next_.far_links += far_links(cell, neighbours);
     next_.far_links -= far_links(cell, list_of(cell));

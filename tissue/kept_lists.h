@@ -2,8 +2,8 @@
 // tissue/).
 //
 // Lists are built from marks. A cell's mark is its position, radius and skin at its last search.
-// Two cells that touch are in each other's lists as long as neither has moved farther from its mark
-// than its slack. It does not matter when the marks were made.
+// Two cells that touch are in each other's lists as long as each has moved by at most its slack
+// from its mark. The marks may have been made at different times.
 #pragma once
 
 #include "tissue/neighbour_search.h"
@@ -17,19 +17,19 @@ namespace cascade {
 
 class KeptLists {
 public:
-    /// Begins with these lists of all cells and the search that found them.
+    /// Begins with these lists of all cells, and with the search that found them.
     void start(NeighbourLists lists, NeighbourSearch search);
 
-    /// Gives some cells new marks and builds their lists. `ranks` belong to all present cells.
-    /// After births, deaths or moves in memory, `cells` must include all cells with a new index.
-    /// All other cells must have kept the order of their ranks. Returns false and changes nothing
-    /// if all lists should be built again, because the renewed cells are too many or too large, or
-    /// would have more than `most_links` links.
+    /// Gives some cells new marks and builds their lists. `ranks` has the rank of every present
+    /// cell. After births, deaths or moves in memory, `cells` must include all cells with a new
+    /// index. All other cells must have kept the order of their ranks. Returns false and changes
+    /// nothing if all lists should be built again, because the renewed cells are too many or too
+    /// large, or would have more than `most_links` links.
     bool renew(std::span<const BoxedCell> cells, std::span<const std::uint32_t> ranks,
                double most_links);
 
     const NeighbourLists& lists() const { return lists_; }
-    /// By cell: whether renew() changed its list.
+    /// Whether the last renew() changed the list of each cell.
     std::vector<bool> changed() const;
     /// The largest width_of() that a cell may have in renew().
     double widest() const { return search_.widest(); }
@@ -50,18 +50,18 @@ private:
     NeighbourSearch search_;
     NeighbourLists lists_, next_;
     std::vector<BoxedCell> renewed_;  ///< The marks of the cells renewed since start().
-    /// By index in memory: the index in renewed_, `no_slot`, or `gone` if this index no longer
-    /// belongs to a cell.
+    /// For each index in memory: the index in renewed_; `no_slot` if the cell has not been renewed;
+    /// `gone` if this index no longer belongs to a cell.
     std::vector<std::uint32_t> slots_;
 
-    // The members from here on are used within one renewal.
+    // The members below are used within one renewal.
     NeighbourKeys found_;
     std::vector<std::vector<std::uint32_t>> new_lists_;
     enum class Kind : std::uint8_t { kept, touched, renewed, gone };
     std::vector<Kind> kinds_;
-    std::vector<std::uint32_t> list_numbers_;  ///< By cell: its index in new_lists_.
-    /// New neighbours of cells whose other neighbours stay, as pairs of the cell and the neighbour.
-    /// Sorted by cell, then by neighbour.
+    std::vector<std::uint32_t> list_numbers_;  ///< The index of each cell in new_lists_.
+    /// New neighbours of the cells whose other neighbours stay. Each pair is a cell and its new
+    /// neighbour. Sorted by cell, then by neighbour.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> added_;
 };
 

@@ -1,4 +1,4 @@
-// A kernel without results that compares present positions with earlier ones.
+// A kernel without results compares present positions with earlier positions.
 #include "tissue/movement_watch.h"
 
 #include <algorithm>

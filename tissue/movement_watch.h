@@ -20,7 +20,7 @@ class MovementWatch {
 public:
     /// The limit of a cell's movement in a step, as a multiple of slack_of() for a skin of 1.
     static constexpr double most_of_radius = 0.5;
-    /// The skin of lists that stay valid in every step in which no cell moves farther than
+    /// With this skin, lists stay valid in every step in which no cell moves farther than
     /// `most_of_radius` allows. Includes a margin for rounding.
     static constexpr double full_skin = 0.52;
 
@@ -35,23 +35,23 @@ public:
     /// Begins a step at these positions.
     void begin_step(std::span<const Vector3d> places, std::span<const double> radii,
                     const NeighbourRule& rule);
-    /// Records that a cell was moved by this vector from a periodic side to the opposite side. This
-    /// does not count as a movement.
+    /// Records that a cell was moved by this vector from a periodic side to the opposite side. Such
+    /// a shift does not count as a movement.
     void shift(std::size_t cell, Vector3d by) { listed_[cell].place = listed_[cell].place + by; }
 
-    /// Whether a cell has moved so far since begin_step() that the lists may miss a neighbour.
+    /// Whether a cell has moved so far since begin_step() that its list may miss a neighbour.
     bool left_lists() const { return left_lists_.load(std::memory_order_relaxed); }
     /// Whether a cell has moved too far for one step, or its position is not finite.
     bool went_too_far() const { return went_too_far_.load(std::memory_order_relaxed); }
     /// Called by kernels with a cell's position when rates are evaluated.
     void look(std::size_t cell, Vector3d place, double radius);
-    /// Whether the lists are valid for a cell at this position, and at positions up to `around`
-    /// from it.
+    /// Whether the list of a cell is valid at this position, and at all positions within a distance
+    /// `around` of it.
     bool reaches(std::size_t cell, Vector3d place, double radius, double around) const {
         return is_within(listed_[cell], place, radius, around);
     }
     /// The movement of a cell since the beginning of the step, expressed as the smallest skin with
-    /// which a list would stay valid.
+    /// which its list would stay valid.
     double way_of(std::size_t cell, Vector3d place) const;
     std::size_t count() const { return listed_.size(); }
 
@@ -59,7 +59,8 @@ private:
     struct Mark {
         Vector3d place;
         double radius = 0;
-        /// The limit of movement. Infinite if no cell has any extent, so that none has neighbours.
+        /// The limit of movement. Infinite if no cell has any extent, because such cells have no
+        /// neighbours.
         double limit = 0;
     };
     bool is_within(const Mark& mark, Vector3d place, double radius, double around = 0) const;

@@ -1,5 +1,5 @@
-// Each cell searches for neighbours in its octave and in larger ones. Then the pairs of different
-// octaves are added to the lists of the larger cells.
+// Each cell searches for neighbours in its octave and in octaves of larger cells. Then each pair of
+// different octaves is added to the list of its larger cell.
 #include "tissue/neighbours.h"
 
 #include "core/morton.h"
@@ -24,14 +24,16 @@ struct Pair {
 struct Part {
     std::vector<std::size_t> counts;
     std::vector<std::uint32_t> neighbours;
-    /// Pairs with larger cells, whose lists do not contain the smaller cell yet.
+    /// Neighbours in different octaves, found by the smaller cell. The list of the larger cell does
+    /// not contain the smaller cell yet.
     std::vector<Pair> pairs;
     std::size_t far_links = 0;
 };
 
 void search_part(const NeighbourSearch& search, RowRange cells, std::atomic<std::int64_t>& left,
                  Part& part) {
-    // The number of cells between two checks of how many links may still be found.
+    // The number of cells that a thread searches before it checks again how many links are still
+    // allowed.
     constexpr std::int64_t cells_at_once = 256;
     part.neighbours.reserve(static_cast<std::size_t>(16 * (cells.end - cells.begin)));
     part.counts.reserve(static_cast<std::size_t>(cells.end - cells.begin));
@@ -58,7 +60,7 @@ void search_part(const NeighbourSearch& search, RowRange cells, std::atomic<std:
     left.fetch_sub(links, std::memory_order_relaxed);
 }
 
-/// Adds small cells to the lists of the large cells that have them as neighbours.
+/// Adds the smaller cell of each pair to the list of the larger cell.
 void add_pairs(std::span<const Pair> pairs, std::span<const std::uint32_t> ranks,
                NeighbourLists& lists) {
     std::vector<std::size_t> ends(lists.ends.size(), 0);
@@ -148,7 +150,8 @@ std::vector<std::uint32_t> order_along_curve(const CellPlaces& cells) {
         high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
     const double size = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
-    // The number of boxes along the longest side. Cells on a surface fill about n² of n³ boxes.
+    // The number of boxes along the longest side. If this number is n, cells on a surface fill
+    // about n² of n³ boxes.
     const double boxes = std::min(2097151.0, 2 * std::sqrt(static_cast<double>(order.size())));
     const double scale = size > 0 ? boxes / size : 0;
     std::vector<std::uint64_t> places;

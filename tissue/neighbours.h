@@ -1,7 +1,8 @@
-// The neighbours of each cell: all cells that it may touch or sense before lists are built again.
+// The neighbours of each cell: all cells that it may touch or sense before the lists are built
+// again.
 //
-// A list may contain cells that do not touch. They contribute exactly +0 to every sum, so no result
-// depends on when lists are built.
+// A list may contain cells that do not touch. Such cells contribute exactly +0 to every sum, so no
+// result depends on when lists are built.
 #pragma once
 
 #include "core/links.h"
@@ -22,15 +23,15 @@ struct NeighbourRule {
     /// Cells are neighbours if their distance is less than this multiple of the sum of their radii.
     double reach = 1.2;
     double near = 0;  ///< Cells at a smaller distance than this are also neighbours.
-    /// By axis: the period of the tissue, or 0 if it is not periodic. Distances are measured to the
-    /// nearest periodic image.
+    /// The period of the tissue along each axis, or 0 if it is not periodic. Distances are measured
+    /// to the nearest periodic image.
     std::array<double, 3> period{};
-    double mean_radius = 0;  ///< The mean over all cells. Sets the scale for very small cells.
+    double mean_radius = 0;  ///< The mean radius of all cells. Sets the scale for very small cells.
 };
 
 /// The distance, in script lengths, that each cell may move before a list built with this `skin`
-/// can miss a pair. This is `skin` times the largest of three lengths: the cell's radius, half the
-/// distance `near` and a quarter of the mean radius.
+/// can miss a pair: `skin` times the largest of three lengths. These are the cell's radius, half of
+/// `near`, and a quarter of the mean radius.
 inline double slack_of(const NeighbourRule& rule, double skin, double radius) {
     return skin * std::max({radius, rule.near / 2, rule.mean_radius / 4});
 }
@@ -39,7 +40,7 @@ inline double slack_of(const NeighbourRule& rule, double skin, double radius) {
 struct CellPlaces {
     std::span<const Vector3d> places;
     std::span<const double> radii;  ///< At least 0.
-    /// The rank of each cell: its index, from 0, if cells are sorted by their numbers.
+    /// The rank of each cell: the cell's index, from 0, if all cells are sorted by their numbers.
     std::span<const std::uint32_t> ranks;
     /// The skin of each cell. If empty, all cells have the skin given to the search.
     std::span<const float> skins = {};
@@ -47,14 +48,16 @@ struct CellPlaces {
 
 /// The lists of all cells.
 struct NeighbourLists {
-    std::vector<std::size_t> ends;          ///< Cell k's neighbours end before ends[k].
-    std::vector<std::uint32_t> neighbours;  ///< Cells, in ascending order of their numbers.
-    /// The number of links between cells that are too far apart in memory for caches.
+    /// The neighbours of cell k end before neighbours[ends[k]].
+    std::vector<std::size_t> ends;
+    /// The neighbours' indices, in ascending order of the cells' numbers.
+    std::vector<std::uint32_t> neighbours;
+    /// The number of links between cells that are far apart in memory; see is_far_link().
     std::size_t far_links = 0;
 };
 
 /// Finds all pairs nearer than the rule's distance plus the slack of both cells. Uses a grid of
-/// boxes for each octave of radii, so that a few large cells among many small ones cost little
+/// boxes for each octave of radii, so that a few large cells among many small cells cost little
 /// time. Positions and radii must be finite. Takes O(cells + links). The result is the same with
 /// any number of threads. Fails if there would be more than `most_links` links, usually before
 /// allocating memory for them. Throws std::bad_alloc.

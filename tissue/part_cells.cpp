@@ -1,4 +1,4 @@
-// Sorts cells by position, so that cells at the same position follow each other.
+// Sorts cells by position. Cells at the same position then follow each other.
 #include "tissue/part_cells.h"
 
 #include "tissue/random_direction.h"
@@ -16,7 +16,7 @@ namespace {
 constexpr double part_of_radius = 0.01;
 
 struct CellAt {
-    std::array<double, 3> key{};  ///< The position without whole periods.
+    std::array<double, 3> key{};  ///< The position, moved by whole periods into the first period.
     std::uint32_t number = 0, cell = 0;
 };
 
@@ -61,7 +61,8 @@ bool part_cells(Tissue& tissue, const TissueSpecies& species, const Surroundings
         const auto held = [&](Vector3d at) {
             return surroundings.held_inside(at, surroundings.near(at, tissue.triangles[cell]));
         };
-        // In a corner of the domain the cell can move in one direction only.
+        // In a corner of the domain, the cell may be able to move only in one of the two opposite
+        // directions.
         Vector3d moved = held(place + way);
         if (moved == place) moved = held(place - way);
         for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -1,5 +1,6 @@
-// Rejection sampling: points in a ball are isotropic, and so are their projections onto a plane.
-// This needs no sine, whose last bits would depend on the machine.
+// Rejection sampling: points that are uniform in a ball have directions that are uniform, and so
+// have their projections to a plane. This needs no sine, whose last bits would depend on the
+// machine.
 #include "tissue/random_direction.h"
 
 #include "core/hash.h"
@@ -8,8 +9,7 @@ namespace cascade {
 
 Vector3d random_direction(const DirectionKey& key, Vector3d normal) {
     const auto symmetric = [](std::uint32_t word) { return (word + 0.5) * 0x1p-31 - 1; };
-    // Each attempt succeeds for half of the points, so the last attempt is practically never
-    // reached.
+    // Half of the attempts succeed, so the last attempt is practically never reached.
     for (std::uint32_t attempt = 0; attempt < 64; ++attempt) {
         const auto words = pcg4d({key.mother, key.child, key.seed, key.stage * 64 + attempt});
         const Vector3d point{symmetric(words[0]), symmetric(words[1]), symmetric(words[2])};

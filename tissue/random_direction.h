@@ -7,10 +7,11 @@
 
 namespace cascade {
 
-/// Determines a random direction.
+/// The numbers that determine a random direction.
 struct DirectionKey {
     std::uint32_t seed = 0, stage = 0;
-    std::uint32_t mother = 0, child = 0;  ///< Numbers of cells. Both are the same for a founder.
+    /// The numbers of two cells, which are equal for a founder.
+    std::uint32_t mother = 0, child = 0;
 };
 
 /// A direction of length 1, uniformly distributed over all directions perpendicular to `normal`, or

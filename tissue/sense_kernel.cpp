@@ -1,4 +1,4 @@
-// Writes the values that cells sense, cell by cell.
+// Writes for each cell the values that it senses.
 #include "tissue/sense_kernel.h"
 
 #include "core/links.h"
@@ -34,8 +34,8 @@ public:
     }
 
 private:
-    /// The number of cells whose positions are searched together. These cells are in one row, so
-    /// one thread computes them.
+    /// The number of cells whose nearest positions are searched together. Such cells are in one
+    /// row, so one thread computes all of them.
     static constexpr std::int64_t cells_at_once = 16;
 
     template <typename Number>
@@ -101,8 +101,8 @@ private:
         }
     }
 
-    /// The stored numbers of a cell are its position, these triangles, and the values that it
-    /// senses.
+    /// Triangles of a search. The stored numbers of a cell are its position, these triangles, and
+    /// the values that the cell senses.
     struct Triangles {
         std::uint32_t from = 0;   ///< The triangle at which the search began.
         std::uint32_t found = 0;  ///< The triangle at which the search ended.
@@ -139,7 +139,7 @@ private:
     mutable AlignedArray<double> kept_;
 };
 
-/// Two adjacent cells along an axis, and the weight of the second.
+/// Two adjacent cells along an axis of a grid, and the weight of the second.
 struct Between {
     std::int64_t first = 0, second = 0;
     double part = 0;

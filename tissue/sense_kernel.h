@@ -1,4 +1,4 @@
-// The kernel of senses. Whenever rates are evaluated, it computes the values that cells sense in
+// The kernel of senses. At each evaluation of the rates, it computes the values that cells sense in
 // their surroundings.
 #pragma once
 
@@ -26,8 +26,8 @@ struct Sense {
     PlaceValue value = {};  ///< Used for senses of the kind `value`.
 };
 
-// The next three functions are for surfaces. The mesh or filter that they are given must outlive
-// their results.
+// The next three functions are for surfaces. The mesh or filter given to each of them must outlive
+// its result.
 /// A PlaceValue that gives the size of the nearest triangle: the square root of its area.
 PlaceValue feature_of(const SurfaceMesh& mesh);
 /// A PlaceValue that interpolates linearly between values given at the points of the mesh, such as
@@ -35,18 +35,20 @@ PlaceValue feature_of(const SurfaceMesh& mesh);
 PlaceValue of_points(const SurfaceMesh& mesh, std::vector<float> values);
 /// A PlaceValue that interpolates smoothly between values given in the cells of a model.
 PlaceValue of_cells(const CellFilter& filter, std::vector<float> values);
-/// A PlaceValue for planes: interpolates linearly between the centres of the cells of a grid. The
-/// grid covers a plane whose longest side has length 1.
+/// A PlaceValue for planes that interpolates linearly between the centres of the cells of a grid.
+/// The grid covers a plane whose longest side has length 1.
 PlaceValue of_grid(const Field& values, Boundaries boundary);
 
-/// The triangles nearest to the cells of a tissue, in the order of memory. In every evaluation
-/// within a step, the search begins at the triangles of the last complete step, so that results
-/// depend only on positions.
+/// The triangles nearest to the cells of a tissue, in the order of memory. Every search within a
+/// step begins at the triangles of the last complete step, so that results depend only on
+/// positions.
 struct NearTriangles {
-    std::vector<std::uint32_t> before;  ///< At the last complete step, by cell.
-    std::vector<std::uint32_t> now;     ///< At the last evaluation, by cell.
+    /// The nearest triangles at the last complete step, by cell.
+    std::vector<std::uint32_t> before;
+    std::vector<std::uint32_t> now;  ///< The nearest triangles at the last evaluation, by cell.
 
-    /// Begins a step, whose searches begin at these triangles of the last complete step.
+    /// Begins a step. Its searches begin at `triangles`, which were nearest at the last complete
+    /// step.
     void begin(std::span<const std::uint32_t> triangles) {
         before.assign(triangles.begin(), triangles.end());
         now = before;

@@ -1,4 +1,4 @@
-// Vectors are planes in units of the species' sizes.
+// A vector is a set of planes, one for each species, in units of the species' sizes.
 #include "tissue/stiffness.h"
 
 #include "core/hash.h"
@@ -15,8 +15,8 @@ constexpr int most_iterations = 30;
 constexpr double enough = 0.03;
 constexpr double margin = 1.1;
 
-/// The largest change of a value in a difference, as a multiple of its species' size: near the
-/// square root of the rounding error.
+/// The largest change that a difference makes to a value, as a multiple of the species' size. It is
+/// near the square root of the rounding error.
 double difference_step(Precision precision) { return precision == Precision::single ? 1e-3 : 1e-6; }
 
 /// A vector is stored by species, then by rank.
@@ -47,7 +47,8 @@ public:
         at_state_ = rates_at(tissue.species);
     }
 
-    /// The direction found by the last estimate. Cells and species without a direction get noise.
+    /// The direction that the last estimate found, plus noise. Without an earlier estimate, the
+    /// direction is noise alone.
     Vector start() const {
         Vector v = read(tissue_.stiffest);
         v.resize(tissue_.species.size());
@@ -160,7 +161,7 @@ double estimate_stiffness(Tissue& tissue, const CellValues& rates, std::span<con
         const double before = found, size = length(next);
         found = size / length(v);
         if (!std::isfinite(found)) return 0;
-        // The rates depend on no value.
+        // The rates depend on no species.
         if (size < 1e-30 || largest(next) == 0) return 0;
         v = std::move(next);
         if (std::abs(found - before) < enough * found) break;

@@ -1,4 +1,4 @@
-// The surroundings of surfaces and boxes.
+// Implements the surroundings of surfaces and of boxes.
 #include "tissue/surroundings.h"
 
 #include "core/links.h"
@@ -68,8 +68,7 @@ public:
     }
 
 private:
-    /// The nearest position to a cell that is neither above nor below the inside of `triangle` or
-    /// of a triangle next to it.
+    /// Finds the nearest position to a cell for which PlaceFollower::stay() finds nothing.
     NearPlace search(Vector3d point, std::uint32_t triangle) const {
         NearPlace near = near_nothing(point);
         near.place.triangle = triangle;
@@ -83,7 +82,8 @@ private:
         near.off = near.is_beyond ? height : std::copysign(found->distance, height);
         return near;
     }
-    /// Finds the nearest positions for at most as many cells as PlaceFollower::AllOver holds.
+    /// Finds the nearest positions for several cells, at most as many as PlaceFollower::AllOver
+    /// holds.
     void near_few(std::span<const Vector3d> points, std::span<const std::uint32_t> triangles,
                   std::span<NearPlace> result) const {
         using AllOver = PlaceFollower::AllOver;
@@ -127,8 +127,8 @@ private:
             near.is_beyond = false;
         }
     }
-    /// Does the same as normal_at(), but reads the corners' normals from one array instead of
-    /// several.
+    /// Does the same as normal_at(), but reads the corners' normals from one array, where they are
+    /// adjacent.
     Vector3d normal_of(std::uint32_t triangle, const std::array<double, 3>& weights) const {
         const auto& [a, b, c] = corner_normals_.data()[triangle];
         const Vector3d sum = a * weights[0] + b * weights[1] + c * weights[2];

@@ -23,7 +23,7 @@ struct NearPlace {
     SurfacePlace place{no_triangle, {1, 0, 0}};
     Vector3d position;
     Vector3d normal{0, 0, 1};  ///< Of length 1. Varies smoothly with the position.
-    /// The cell's distance from `position`, negative on the inner side. If the cell is beyond the
+    /// The cell's distance from `position`, negative on the inner side. For a cell beyond the
     /// boundary of an open surface, the cell's height above the plane that continues the surface.
     double off = 0;
     bool is_beyond = false;  ///< Whether the cell is beyond the boundary of an open surface.
@@ -35,9 +35,9 @@ public:
     virtual ~Surroundings() = default;
 
     /// The position nearest to a cell at `point`. The search begins at `triangle`, which was
-    /// nearest before, or is no_triangle. `off` is NaN if the point is not finite.
+    /// nearest at an earlier moment, or is no_triangle. `off` is NaN if the point is not finite.
     virtual NearPlace near(Vector3d point, std::uint32_t triangle) const = 0;
-    /// Does the work of near() for several cells. All arrays have the same length.
+    /// Calls near() for several cells. All arrays have the same length.
     virtual void near_all(std::span<const Vector3d> points,
                           std::span<const std::uint32_t> triangles,
                           std::span<NearPlace> result) const {
@@ -45,8 +45,8 @@ public:
     }
     /// Prefetches the data of this triangle for a call of near().
     virtual void prepare(std::uint32_t) const {}
-    /// The position of a cell after walls have stopped it at the sides of a plane or at the
-    /// boundary of an open surface, and periodic sides have moved it to the opposite side.
+    /// The position to which a cell is held. Walls stop the cell at the sides of a plane or at the
+    /// boundary of an open surface. Periodic sides move the cell to the opposite side.
     virtual Vector3d held_inside(Vector3d point, const NearPlace& near) const = 0;
     /// Whether held_inside() may change positions.
     virtual bool holds() const = 0;
@@ -54,7 +54,7 @@ public:
     virtual bool has_normal() const = 0;
     /// The period of the tissue along each axis; 0 along an axis that is not periodic.
     virtual std::array<double, 3> period() const { return {}; }
-    /// The surface; null if there is none.
+    /// The surface; null if the surroundings have no surface.
     virtual const SurfaceMesh* mesh() const { return nullptr; }
     /// The box in which founders are scattered if there is no surface.
     virtual Vector3d extent() const = 0;
@@ -65,8 +65,8 @@ public:
 std::unique_ptr<Surroundings> around_surface(const SurfaceMesh& mesh);
 
 /// The surroundings given by a plane from (0, 0) to `extent`. Along each axis, the tissue is
-/// periodic or walls stop it. The normal is (0, 0, 1), and `off` is z. If `extent` has a depth
-/// above 0, the surroundings are a box in space instead, and `off` is 0.
+/// periodic, or walls stop cells at the sides. The normal is (0, 0, 1), and `off` is z. If `extent`
+/// has a depth above 0, the surroundings are a box in space instead of a plane, and `off` is 0.
 std::unique_ptr<Surroundings> in_box(Vector3d extent, std::array<bool, 3> is_periodic);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Moves the cells of all planes together.
+// Moves the values of cells in all planes at once.
 #include "tissue/tissue.h"
 
 #include "core/check.h"
@@ -12,7 +12,8 @@
 namespace cascade {
 namespace {
 
-/// Calls `use(address, first cell, number of cells)` for each row of the cells `first` … `end` − 1.
+/// Calls `use(address, first cell, number of cells)` for each row that holds some of the cells
+/// [first, end).
 template <typename Number>
 void for_each_row(Plane<Number>& plane, std::size_t first, std::size_t end, const auto& use) {
     const auto width = static_cast<std::size_t>(plane.layout().width);
@@ -27,7 +28,7 @@ std::size_t capacity_of(const PlaneLayout& layout) {
     return static_cast<std::size_t>(layout.width * layout.height);
 }
 
-/// Copies the last of `count` cells to all elements after it.
+/// Copies the values of the last of `count` cells to all elements after it.
 template <typename Number>
 void fill_after(Plane<Number>& plane, std::size_t count) {
     const auto width = static_cast<std::size_t>(plane.layout().width);
@@ -83,8 +84,9 @@ std::vector<std::vector<double>> numbers_in(const std::vector<Field>& fields,
     return result;
 }
 
-/// Copies cell sources[k] to index places[k]. There are `count` cells in the new layout. Other
-/// cells stay, but if the layout differs there must be no others.
+/// Copies cell sources[k] to index places[k] for all k. There are `count` cells in the new layout.
+/// If the layout stays the same, all other cells stay. If the layout changes, `places` must include
+/// all cells.
 void rearrange_field(Field& field, const PlaneLayout& layout, std::size_t count,
                      std::span<const std::uint32_t> places,
                      std::span<const std::uint32_t> sources) {
@@ -99,7 +101,7 @@ void rearrange_field(Field& field, const PlaneLayout& layout, std::size_t count,
     });
 }
 
-/// Does the same as rearrange_field() for values stored by cell.
+/// Does the same as rearrange_field() for a vector with a value for each cell.
 template <typename Value>
 void rearrange_values(std::vector<Value>& values, std::size_t count,
                       std::span<const std::uint32_t> places,
@@ -168,7 +170,8 @@ TissueRecord Tissue::record() const {
     return result;
 }
 
-/// If there are few cells, rows are short, so that few elements repeat the last cell.
+/// Chooses the layout of planes. If there are few cells, rows are short, so that few elements
+/// repeat the last cell.
 void Tissue::choose_layout(std::size_t cells) {
     const std::size_t wanted = cells + cells / 8 + 1;
     const std::size_t width = wanted <= 256 ? 16 : 64;
@@ -179,8 +182,8 @@ void Tissue::choose_layout(std::size_t cells) {
     layout_ = PlaneLayout(grid_);
 }
 
-/// Fills all arrays that depend on the cells' numbers. Cells before `first` are in these arrays
-/// already.
+/// Fills all arrays that depend on the cells' numbers. The arrays already have the cells before
+/// `first`.
 void Tissue::number_cells(std::size_t first) {
     ranks_.resize(count());
     elements_by_number_.clear();
@@ -214,7 +217,7 @@ bool Tissue::rearrange(std::span<const std::uint32_t> sources,
     const PlaneLayout before = layout_;
     const std::size_t room = capacity_of(layout_), cells = sources.size();
     if (cells > room || cells < room / 4) choose_layout(cells);
-    // The indices at which cells change, and their sources.
+    // The indices whose cells change, and the old indices of their new cells.
     std::vector<std::uint32_t> places, from;
     for (std::uint32_t k = 0; k < cells; ++k) {
         if (layout_ == before && k < count() && sources[k] == k) continue;
@@ -236,7 +239,7 @@ bool Tissue::rearrange(std::span<const std::uint32_t> sources,
     return layout_ != before;
 }
 
-/// Keeps the cells ordered by number, with new cells at the end.
+/// Updates the order of cells by number. New cells come at the end.
 void Tissue::keep_order(std::span<const std::uint32_t> sources,
                         std::span<const std::uint32_t> born) {
     constexpr std::uint32_t nowhere = 0xffffffff;

@@ -18,19 +18,19 @@
 
 namespace cascade {
 
-/// The progress of a tissue's stage: everything, besides the cells, that must be known to continue.
+/// Everything, besides the cells, that must be known to continue a tissue's stage.
 struct TissueTime {
     double t = 0;
     std::int64_t steps = 0;
     StepControl::State control;
     /// An upper bound of the eigenvalues of the rates' Jacobian, in 1 / time, and the number of
-    /// steps after which it was estimated (−1: not yet).
+    /// complete steps when it was estimated (−1 if it was not yet estimated).
     double stiffness = 0;
     std::int64_t estimated_at = -1;
     double last_event = 0;  ///< The time of the last division or death.
     double progress = 0;    ///< The greatest progress since the last event (tissue/tissue_loop.h).
-    // The time and the counts at the last comparison of births and deaths with the number of cells;
-    // see compare_turnover().
+    // The time and the counts when compare_turnover() last compared births and deaths with the
+    // number of cells.
     double compared_at = 0;
     std::int64_t compared_births = 0, compared_deaths = 0, compared_cells = 0;
 };
@@ -40,9 +40,11 @@ struct TissueTime {
 struct TissueRecord {
     std::vector<std::uint32_t> numbers;
     std::vector<std::vector<double>> species;  ///< By species, then by cell.
-    /// By species, then by cell: the direction in which the rates change fastest.
+    /// By species, then by cell: the direction, in the space of values, in which the rates change
+    /// fastest.
     std::vector<std::vector<double>> stiffest;
-    /// By plane of Tissue::kept, then by cell: its values. Empty for a plane that is empty.
+    /// The values of the planes of Tissue::kept, by plane, then by cell. Empty for a plane that is
+    /// empty.
     std::vector<std::vector<double>> kept;
     std::optional<std::size_t> frozen;     ///< The plane of `kept` that marks frozen cells.
     std::vector<std::uint32_t> triangles;  ///< The surface's triangle nearest to each cell.
@@ -52,8 +54,8 @@ struct TissueRecord {
 };
 
 /// The cells in memory. Cell k is in column k mod width of row k / width. The elements after the
-/// last cell repeat its values. Planes are made with room for an eighth more cells than exist at
-/// that time, so that births seldom require new planes.
+/// last cell repeat its values. New planes have room for an eighth more cells than exist, so that
+/// births seldom require new planes.
 class Tissue {
 public:
     static constexpr std::uint32_t no_triangle = 0xffffffff;
@@ -82,39 +84,40 @@ public:
         }
     }
 
-    /// The values of all species: one plane for each. While a step runs, these planes belong to the
-    /// step.
+    /// The values of all species: one plane for each species. While a step runs, these planes
+    /// belong to the step.
     std::vector<Field> species;
-    /// Planes of values that have no rates. They are moved and copied together with their cells.
-    /// Some may be empty.
+    /// Planes of values that have no rates. The values are moved and copied together with their
+    /// cells. Some planes may be empty.
     std::vector<Field> kept;
-    /// The direction in which the rates change fastest. Empty until it is known.
+    /// The direction, in the space of values, in which the rates change fastest. Empty until it is
+    /// known.
     std::vector<Field> stiffest;
-    /// By cell: the triangle that was nearest at the last complete step, or no_triangle.
+    /// The triangle that was nearest to each cell at the last complete step, or no_triangle.
     std::vector<std::uint32_t> triangles;
-    /// By cell: the movement expected in a step, expressed as the skin of a list that would allow
-    /// it. No result depends on it.
+    /// By cell: the movement in the last step (1 after a division), expressed as the skin of a list
+    /// that would allow this movement. No result depends on it.
     std::vector<float> restlessness;
     std::uint32_t next_number = 0;
     std::int64_t births = 0, deaths = 0;
     TissueTime time;
 
-    /// The number of each cell in memory.
+    /// The number of each cell, in the order of memory.
     std::span<const std::uint32_t> numbers() const { return numbers_; }
     /// The cells in ascending order of their numbers.
     std::span<const std::uint32_t> by_number() const { return by_number_; }
     /// The elements of the cells in ascending order of numbers, counted from cell 0.
     std::span<const std::uint32_t> elements_by_number() const { return elements_by_number_; }
-    /// By cell in memory: its index in by_number().
+    /// The index of each cell in by_number(), in the order of memory.
     std::span<const std::uint32_t> ranks() const { return ranks_; }
     /// The cells' numbers as a plane, for kernels that draw random numbers.
     const Field& number_plane() const { return number_plane_; }
-    /// 1 for cells, 0 for the elements that repeat the last cell.
+    /// A mask that is 1 for cells, and 0 for the elements that repeat the last cell.
     const Mask& inside() const { return inside_; }
 
     /// The mask inside() as a plane of numbers 1 and 0.
     const Field& ones() const { return ones_; }
-    /// 1 for frozen cells. Empty if none can be frozen.
+    /// A mask that is 1 for frozen cells. Empty if no cell can be frozen.
     const Mask& frozen() const { return frozen_; }
     bool is_frozen(std::size_t cell) const {
         return !frozen_.empty() && frozen_.origin()[element(cell)] != 0;
@@ -125,8 +128,8 @@ public:
     void freeze_by(std::size_t kept_plane);
 
     /// Puts a copy of cell sources[k] at index k, for all k. Cells that are not among the sources
-    /// disappear. The cells at the indices `born` get the next numbers, in this order. Of the cells
-    /// that are not in `born`, no two have the same source. Returns whether the layout has changed.
+    /// disappear. The cells at the indices `born` get the next numbers, in this order. Only cells
+    /// in `born` may have the same source as another cell. Returns whether the layout has changed.
     /// If not, all planes stay in memory. Throws std::bad_alloc.
     bool rearrange(std::span<const std::uint32_t> sources,
                    std::span<const std::uint32_t> born = {});

@@ -130,8 +130,8 @@ private:
         if (tissue_.count() == 0) return true;
         outcome_.failure = find_not_finite(tissue_);
         if (outcome_.failure) return false;
-        // If a run is resumed, these events have already happened, and these cells have already
-        // been separated.
+        // If a run is resumed, the events at the beginning have already happened, and cells at the
+        // same position have already been separated.
         if (time().steps == 0 && part_cells(tissue_, species_, surroundings_, schedule_.seed,
                                             schedule_.stage, tissue_.by_number())) {
             tissue_.pad();
@@ -143,12 +143,14 @@ private:
 
     bool estimate() {
         stepper_.lists().begin_step(tissue_);
-        // Differences move cells by a thousandth of the mean radius, so this reach is enough.
+        // The differences move cells by a thousandth of the mean radius, so lists that are valid
+        // for ten times this movement are enough.
         const auto reached = stepper_.reach(tissue_.species, 0.01 * stepper_.lists().mean_radius());
         if (!reached) return fail(reached.error());
         const double found = estimate_stiffness(tissue_, rules_.rates(), stepper_.sizes(),
                                                 stepper_.moment(1), stepper_.values());
-        // The bound is at most halved, because cells that have just separated may touch again.
+        // The stored bound may fall by at most half, because cells that have just separated may
+        // touch again.
         time().stiffness = std::max(found, time().stiffness / 2);
         time().estimated_at = time().steps;
         return true;
@@ -159,7 +161,7 @@ private:
         return std::isfinite(schedule_.end_time) ? schedule_.end_time / 100 : 0.01;
     }
 
-    /// The length of the shortest step. With shorter steps the stage would practically never end.
+    /// The least length of a step. With shorter steps the stage would practically never end.
     double least_step() {
         const bool ends = std::isfinite(schedule_.end_time);
         return 1e-10 * (ends ? schedule_.end_time : std::max(time().t, 1.0));
@@ -171,13 +173,14 @@ private:
         const double wanted =
             is_adaptive() ? std::min(time().control.step, schedule_.largest_step) : schedule_.step;
         const double whole = std::min(wanted, stepper_.longest_step());
-        // If almost no time would be left after the last step, this step is made slightly longer.
+        // If almost no time would be left after the next step, this step is made slightly longer to
+        // reach the end.
         const double left = next_end() - time().t;
         return left < 1.01 * whole ? left : whole;
     }
 
-    /// Takes one step. After a failure or a cancel, returns false and leaves the state of the last
-    /// complete step. A run that is resumed takes this step again.
+    /// Takes one step. If this fails or is cancelled, returns false and leaves the state of the
+    /// last complete step. A resumed run takes this step again.
     bool take_step(const RunControl& control) {
         const auto ordered = stepper_.order_cells();
         if (!ordered) return fail(ordered.error());
@@ -252,7 +255,7 @@ private:
     }
 
     /// Finds the events of a step. If there are too many events for one step, the step ends early,
-    /// and the remaining events happen later.
+    /// and the later events happen in later steps.
     bool finish_step(TriedStep tried, double length) {
         events_.clear();
         is_quiet_ = has_all_events_ = false;
@@ -353,10 +356,10 @@ private:
     std::vector<CellEvent> events_;  ///< Events of the last step that have not been applied yet.
     /// Whether no condition holds at the end of the last step.
     bool is_quiet_ = false;
-    /// Whether no condition holds at the end of the last step for cells without an event in
-    /// `events_`.
+    /// For cells without an event in `events_`: whether no condition holds at the end of the last
+    /// step.
     bool has_all_events_ = false;
-    double now_ = 0;          ///< The present progress_of() the tissue.
+    double now_ = 0;          ///< The result of progress_of() for the present tissue.
     double last_length_ = 0;  ///< The length of the last step, before it was ended early.
     bool is_started_ = false;
 };

@@ -24,16 +24,16 @@
 namespace cascade {
 
 /// The progress of a tissue: the largest of speed · τ / size over the species, where τ is the time
-/// since the last division or death. A species' speed is the root mean square over the cells of its
-/// change per time. Progress is thus the relative change of values in another time τ at their
-/// present speeds. It rises while cells move, and falls when they come to rest.
+/// since the last division or death. A species' speed is the root mean square, over the cells, of
+/// its rate of change. So progress is the relative change of values that their present speeds would
+/// cause in another time τ. It rises while cells move, and falls when cells come to rest.
 double progress_of(std::span<const double> changes, double step, std::span<const double> sizes,
                    std::span<const std::size_t> restless, double since_event);
 
 /// Whether the tissue is at rest. Its progress must be at most `tolerance`. In addition, progress
-/// must have been at least three times as large at some time since the last division or death, or
-/// the time τ since then must be a hundred times the time scale of the fastest rate. Without this
-/// second condition the first steps after a division would count as rest.
+/// must have been at least 3 · `tolerance` at some time since the last division or death, or the
+/// time since then must be at least a hundred times the time scale of the fastest rate. Without
+/// this second condition the first steps after a division would count as rest.
 bool is_at_rest(const TissueTime& time, double progress, double tolerance);
 
 /// Counts of births and deaths in a time in which the number of cells hardly changed.
@@ -41,10 +41,11 @@ struct Turnover {
     std::int64_t births = 0, deaths = 0, cells = 0;
     double from = 0, to = 0;
 };
-/// Finds out whether cells only replace each other. This is so if, since the last comparison, at
-/// least four times as many cells as exist were born, the same number died, and the number of cells
-/// changed by at most a tenth. Such a tissue may go on for ever. Must be called after events. A new
-/// comparison begins whenever four times as many cells as exist have been born.
+/// Finds out whether cells only replace each other. For this, since the last comparison, at least
+/// four times as many cells as exist must have been born, at least as many must have died, and the
+/// number of cells must have changed by at most a tenth. Such a tissue may go on for ever. Must be
+/// called after events. A new comparison begins whenever four times as many cells as exist have
+/// been born.
 bool compare_turnover(Tissue& tissue, Turnover& turnover);
 
 /// Called at a complete step, whose values are in tissue.species. Returns false to end the stage.
@@ -53,30 +54,31 @@ using TissueObserver = std::function<bool(const Tissue& tissue)>;
 /// The steps that a tissue's time loop takes.
 struct TissueSchedule {
     Solver solver = Solver::rkl2;
-    /// The largest error of a step, relative to sizes_of(). 0: steps are fixed.
+    /// The largest error of a step, relative to sizes_of(). If it is 0, all steps have the length
+    /// `step`.
     double tolerance = 1e-3;
     double step = 0;  ///< The length of fixed steps.
     double largest_step = std::numeric_limits<double>::infinity();
     /// The time at which the stage ends. The last step is shortened to end there.
     double end_time = std::numeric_limits<double>::infinity();
-    double every = 0;                   ///< If above 0, a step ends at each multiple.
+    double every = 0;                   ///< If above 0, a step ends at each multiple of this time.
     double steady = 0;                  ///< If above 0, the stage ends at rest; see is_at_rest().
     bool has_exact_events = false;      ///< Whether a step ends at each event.
-    std::uint32_t seed = 0, stage = 0;  ///< For random directions of division.
-    NeighbourRule neighbours;           ///< Its period is the period of the surroundings.
+    std::uint32_t seed = 0, stage = 0;  ///< Used for random directions of division.
+    NeighbourRule neighbours;           ///< Its `period` is the period of the surroundings.
     double skin = 0.3;  ///< The skin of lists of neighbours. No result depends on it.
     double most_list_bytes = 4e9;
     std::size_t most_cells = 10'000'000;
     int threads = 1;
-    std::int64_t check = 0;    ///< `ends` is called every `check` steps. 0: never.
+    std::int64_t check = 0;    ///< `ends` is called every `check` steps; never if this is 0.
     TissueObserver ends = {};  ///< Returns true to end the stage.
     /// `keep_is_due` is called after each step. If it returns true, the state must be saved, and
     /// `keep` is called. The answer does not influence the run's results.
     std::function<bool()> keep_is_due = {};
     std::function<void(const Tissue& tissue)> keep = {};
     /// Returns the first moment to observe after t, or infinity. `at_moment` is called at each of
-    /// these moments, with values interpolated between the ends of the step that contains it. No
-    /// step changes.
+    /// these moments, with values interpolated between the ends of the step that contains the
+    /// moment. The steps stay the same.
     std::function<double(double t)> next_moment = {};
     std::function<void(const Tissue& tissue)> at_moment = {};
     /// Called once, when compare_turnover() first finds that cells only replace each other.
@@ -87,13 +89,13 @@ struct TissueSchedule {
 /// step.
 struct TissueFailure {
     enum class Kind : std::uint8_t {
-        not_finite,        ///< A value of cell `number` is not finite after a step from `t`.
-        rate_not_finite,   ///< A rate of cell `number` is not finite.
-        too_short,         ///< Steps have become too short. The error is largest in cell `number`.
-        too_far,           ///< A fixed step would move a cell too far, or is not stable.
-        divides_for_ever,  ///< The condition of division still holds for the cell after ten
-                           ///< divisions in a row.
-        too_many_cells,    ///< The number of cells would be `cells`.
+        not_finite,       ///< A value of cell `number` is not finite after a step from `t`.
+        rate_not_finite,  ///< A rate of cell `number` is not finite.
+        too_short,        ///< Steps have become too short. The error is largest in cell `number`.
+        too_far,          ///< A fixed step would move a cell too far, or is not stable.
+        /// The condition of division still holds for the cell after ten divisions in a row.
+        divides_for_ever,
+        too_many_cells,      ///< There would be `cells` cells, which are too many.
         too_many_neighbours  ///< `refusal` is the message.
     };
     Kind kind = Kind::not_finite;

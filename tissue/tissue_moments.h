@@ -12,13 +12,14 @@
 
 namespace cascade {
 
-/// Moves cells that have left the surroundings back inside, and calls `moved` for each of them with
-/// its movement. Returns whether there are any.
+/// Moves cells that have left the surroundings back inside, and calls `moved` for each of these
+/// cells with its movement. Returns whether any cell has moved.
 bool hold_inside(Tissue& tissue, const TissueSpecies& roles, const Surroundings& surroundings,
                  const std::function<void(std::uint32_t cell, Vector3d movement)>& moved = {});
 
-/// Calls TissueSchedule::at_moment at the moments of TissueSchedule::next_moment. Between the ends
-/// of a step, the tissue has the cells of its beginning, and the values of StepCubic.
+/// Calls TissueSchedule::at_moment at the moments of TissueSchedule::next_moment. During a call for
+/// a moment within a step, the tissue has the cells of the step's beginning and the values of
+/// StepCubic.
 class TissueMoments {
 public:
     /// Moments are counted from the present time of the tissue. All arguments must outlive this
@@ -33,8 +34,8 @@ public:
 
     /// Whether there is a moment within a step of this length that begins now.
     bool is_within(double length) const;
-    /// Observes the moments within the first `part` of a step. The present values, which are the
-    /// values at the end of the curve, are the same afterwards.
+    /// Observes the moments within the first `part` of a step. Afterwards the tissue has its
+    /// present values again, which are the values at the end of the curve.
     void observe(const StepCubic& curve, double part);
     /// Observes the moments at the end of a step of this length.
     void observe_end(double length);

@@ -36,8 +36,8 @@ inline Vector3d place_of(const Tissue& tissue, const TissueSpecies& species, std
     return place_in(tissue.species, tissue, species, cell);
 }
 
-/// Passes that compute values of cells. They read the species in register 0 and write value k to
-/// plane k of register 1.
+/// Passes that compute values of cells. The passes read the species in register 0 and write value k
+/// to plane k of register 1.
 struct CellValues {
     const StepProblem* problem = nullptr;  ///< Null if there are no such values.
     std::size_t count = 0;                 ///< The number of planes in register 1.
@@ -52,12 +52,13 @@ struct TissueStep {
     std::vector<RegisterId> states;  ///< The result of state_registers() for the scheme.
 };
 
-/// The registers that hold the states in which a scheme's sweeps evaluate rates, including the
-/// state at the beginning of the step.
+/// The registers with the states in which a scheme's sweeps evaluate rates. These states include
+/// the beginning of the step.
 std::vector<RegisterId> state_registers(const Scheme& scheme);
 
 /// The equations of a tissue as passes over its planes. The problems returned below stay valid
-/// until the next bind(). They do not contain the number of cells, which may change without bind().
+/// until the next bind(). These problems do not contain the number of cells, which may change
+/// without bind().
 class TissueRules {
 public:
     virtual ~TissueRules() = default;
@@ -66,8 +67,8 @@ public:
     /// the addresses of `links`, of the plane of numbers and of the mask of the cells.
     virtual void bind(const Tissue& tissue, const Links& links) = 0;
 
-    /// The passes of a step. `stages` is its number of stages if the solver is stabilised. The step
-    /// has an error register if the length of steps is chosen by the error.
+    /// The passes of a step. `stages` is the number of stages of a step if the solver is
+    /// stabilised. The step has an error register if the error determines the length of steps.
     virtual TissueStep step(std::uint32_t stages) = 0;
     /// The rates of all species.
     virtual CellValues rates() = 0;
@@ -80,11 +81,11 @@ public:
     virtual Conditions conditions() = 0;
 
     /// The direction of division of each dividing cell, of any length, in three planes. If there
-    /// are no such values, or where the direction is 0, cells divide in a random direction of the
+    /// are no such values, or if the direction is 0, a cell divides in a random direction of the
     /// tangent plane.
     virtual CellValues along() = 0;
 
-    /// The values that both cells get after a division. The formulas are the same for both. They
+    /// The values that both cells get after a division, by the same formulas for both. The formulas
     /// are evaluated when the new cells are already at their positions but still have all values of
     /// their mothers.
     struct Restarts {

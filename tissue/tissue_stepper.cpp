@@ -1,5 +1,5 @@
-// If cells leave the reach of their lists during a step, the step is repeated with better lists.
-// The result is the same bit for bit.
+// If a cell moves so far during a step that its list may miss neighbours, the step is repeated with
+// better lists. The result is the same bit for bit.
 #include "tissue/tissue_stepper.h"
 
 #include "core/check.h"
@@ -15,13 +15,13 @@ namespace cascade {
 
 namespace {
 
-/// The numbers of stages that are used. Each number needs separate passes and planes, so there
-/// are only a few.
+/// The numbers of stages that are used. Each number needs separate passes and planes, so the list
+/// is short.
 constexpr std::array<std::uint32_t, 14> numbers_of_stages{3,  5,  7,  9,  11, 13, 17,
                                                           21, 27, 35, 45, 57, 75, 99};
 
-/// A step ends early if more than one in this many cells has an event. The reason is that new cells
-/// and their neighbours interact only after the end of the step.
+/// A step ends early if more than one in this many cells has an event, because new cells and their
+/// neighbours interact only after the end of the step.
 constexpr std::size_t cells_of_an_event = 20;
 
 /// The longest step after an event, as a multiple of the shortest time scale of the rates.
@@ -80,7 +80,7 @@ std::vector<double> sizes_of(const std::vector<Field>& species, const Tissue& ti
     for (std::size_t k = 0; k < 3 && mean_radius > 0; ++k) {
         if (std::isfinite(sizes[roles.place + k])) sizes[roles.place + k] = mean_radius;
     }
-    // The comparison preserves NaN.
+    // This comparison leaves NaN unchanged.
     for (double& size : sizes) size = size < 1e-30 ? 1e-30 : size;
     return sizes;
 }
@@ -240,7 +240,7 @@ Result<TriedStep> TissueStepper::attempt(double length) {
     }
 }
 
-/// The error of the step just tried. Unlike the error that Stepper::attempt() returns, it does not
+/// The error of the step just tried. Unlike the result of Stepper::attempt(), this error does not
 /// depend on the order of cells in memory.
 double TissueStepper::error() {
     const std::vector<double> errors = root_mean_squares(stepper_->error_planes(), tissue_, team_);
@@ -288,7 +288,8 @@ Result<TissueStepper::StepEvents> TissueStepper::events(const TriedStep& tried, 
         const std::vector<std::uint32_t> nearest = triangles_->now;
         const std::vector<Field> new_rates = rates_at(tissue_.species, now.next_t);
         found = find(rates_at(old_state, now.t), new_rates);
-        // Observing states between the ends of a step must not change the nearest triangles.
+        // If states between the ends of a step are only observed, the nearest triangles must not
+        // change.
         if (rules_.conditions().values.problem == nullptr) triangles_->now = nearest;
     }
     take_beginning(tried, std::move(old_state));
@@ -296,7 +297,8 @@ Result<TissueStepper::StepEvents> TissueStepper::events(const TriedStep& tried, 
     return result;
 }
 
-/// Decides where the step must end, and discards later events.
+/// Decides where the step must end. Adds the events until then to `result` and discards later
+/// events.
 void TissueStepper::end_at(std::vector<CellEvent>& found, const StepCubic& cubic,
                            StepEvents& result) {
     if (found.empty()) return;

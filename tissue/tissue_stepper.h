@@ -22,31 +22,31 @@
 
 namespace cascade {
 
-/// For each of `fields`, the root mean square over the cells. If `others` is not null, the root
-/// mean square of the difference between each field and the corresponding one of `others`. NaN if a
-/// value is NaN. The threads of the team share the planes.
+/// The root mean square, over the cells, of each of `fields`. If `others` is not null, the root
+/// mean square of the difference between each field and the field of `others` with the same index.
+/// NaN if a value is NaN. The threads of the team share the planes.
 std::vector<double> root_mean_squares(const std::vector<Field>& fields, const Tissue& tissue,
                                       Team& team, const std::vector<Field>* others = nullptr);
 
-/// The size of each species, in proportion to which errors and speeds are judged: the mean radius
-/// for positions, the root mean square for all other species, and at least 1e-30.
+/// The size of each species, by which errors and speeds are divided: the mean radius for positions,
+/// the root mean square for all other species, and at least 1e-30.
 std::vector<double> sizes_of(const std::vector<Field>& species, const Tissue& tissue,
                              const TissueSpecies& roles, double mean_radius, Team& team);
 
 /// Describes a failure of the tissue in its present state.
 TissueFailure failure_of(TissueFailure::Kind kind, const Tissue& tissue);
-/// Finds the first cell, by number, that has a value that is not finite.
+/// Finds the first cell, by number, with a value that is not finite.
 std::optional<TissueFailure> find_not_finite(const Tissue& tissue);
 
-/// The result of a tried step. The current values are the values at its end.
+/// The result of a tried step. The current values are the values at the end of this step.
 struct TriedStep {
     CopyRoles before;  ///< The roles at the beginning of the step.
     /// The error of the step in units of the tolerance. NaN if a value is not finite. 0 if errors
     /// are not estimated.
     double error = 0;
     bool went_too_far = false;
-    /// Whether the step was abandoned. The current values are then the values at its beginning, and
-    /// no function of this class may be called any more.
+    /// Whether the step was abandoned. The current values are then the values at the beginning of
+    /// the step, and no function of this class may be called any more.
     bool is_abandoned = false;
 };
 
@@ -62,18 +62,18 @@ public:
                   const TissueSchedule& schedule);
 
     /// Builds the lists. Must be called first and after every change of cells. If `has_moved` is
-    /// true, the planes have moved, and everything is bound again. If only some cells are new or
-    /// have moved and no others have changed, they are listed in `only`. If `only` is empty, the
-    /// lists of all cells are built.
+    /// true, the planes have moved, and everything is bound again. `only` lists the cells that are
+    /// new or have moved, if no other cells have changed. If `only` is empty, the lists of all
+    /// cells are built.
     Result<void> cells_changed(bool has_moved, std::span<const std::uint32_t> only = {});
     /// Reorders the cells if that saves more time than it takes.
     Result<void> order_cells();
 
     /// Builds lists, if necessary, so that values may be evaluated in this state and at positions
-    /// that differ from it by up to `around`.
+    /// within a distance `around` of those in this state.
     Result<void> reach(const std::vector<Field>& state, double around = 0);
-    /// Builds lists, if necessary, so that values may be evaluated in the present state. Only the
-    /// given cells may have changed since lists were valid.
+    /// Builds lists, if necessary, so that values may be evaluated in the present state. Since
+    /// lists were last valid, only the given cells may have changed.
     Result<void> reach(std::span<const std::uint32_t> cells);
 
     /// From now on attempt() abandons its step when `cancel` becomes true.
@@ -81,14 +81,14 @@ public:
     /// Tries a step of this length, with lists that are valid during the step. The caller must then
     /// call accept() or undo().
     Result<TriedStep> attempt(double length);
-    /// The events of the tried step; none if no cell can divide or die. If there are too many for
-    /// one step, the step ends early, and the current values are the values at that end. `use`,
-    /// which may be empty, may read the values between the ends of the step.
+    /// The events of the tried step; none if no cell can divide or die. If there are too many
+    /// events for one step, the step ends early, and the current values become the values at that
+    /// moment. `use`, which may be empty, may read the values between the ends of the step.
     struct StepEvents {
         double part = 1;  ///< The fraction of the tried step after which the step ends.
         std::vector<CellEvent> events;
-        bool has_all = false;  ///< Whether no condition holds at the end of the step for any cell
-                               ///< without an event.
+        /// Whether no condition holds at the end of the step for any cell without an event.
+        bool has_all = false;
     };
     Result<StepEvents> events(const TriedStep& tried, double length, const CurveUser& use = {});
     void accept();

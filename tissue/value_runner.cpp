@@ -1,4 +1,4 @@
-// Runs a copy of each problem in which the present number of cells is set.
+// Runs a copy of each problem. The copy has the present number of cells.
 #include "tissue/value_runner.h"
 
 #include "core/check.h"
@@ -40,12 +40,12 @@ std::vector<std::uint32_t> with_neighbours(std::vector<std::uint32_t> cells,
 
 using Patches = std::vector<Patch>;
 
-/// The smallest number of patches for which several threads are used. With fewer patches they save
-/// no time.
+/// The smallest number of patches for which several threads are used. With fewer patches, several
+/// threads would save no time.
 constexpr std::size_t patches_of_threads = 32;
 
-/// The slices of links that contain these cells, as patches of one row. Adjacent patches are
-/// joined. `cells` is in ascending order.
+/// The slices of links that contain these cells. Each result is a patch of one row, and adjacent
+/// patches are joined. `cells` is in ascending order.
 Patches slices_of(std::span<const std::uint32_t> cells, std::int64_t width) {
     constexpr std::int64_t lanes = PlaneLayout::row_pad;
     Patches slices;
@@ -62,7 +62,7 @@ Patches slices_of(std::span<const std::uint32_t> cells, std::int64_t width) {
     return slices;
 }
 
-/// The last pass before `reader` that writes a temporary.
+/// The number of the last pass before `reader` that writes a temporary.
 std::size_t writer_of(const StepProblem& problem, std::size_t reader, TemporaryId temporary) {
     for (std::size_t pass = reader; pass-- > 0;) {
         for (const StepProblem::Result& result : problem.passes[pass].results) {
@@ -73,8 +73,8 @@ std::size_t writer_of(const StepProblem& problem, std::size_t reader, TemporaryI
     return 0;
 }
 
-/// The cells that each pass must compute, if only the values of `among` are needed. Empty if all
-/// cells are needed.
+/// The patches that each pass must compute if only the values of the cells `among` are needed.
+/// Empty if each pass must compute all cells.
 std::vector<Patches> patches_of_passes(const StepProblem& problem,
                                        std::span<const std::uint32_t> among) {
     const auto reduces = [](const StepProblem::Pass& pass) { return !pass.reductions.empty(); };
@@ -87,7 +87,7 @@ std::vector<Patches> patches_of_passes(const StepProblem& problem,
         const StepProblem::Pass& reader = problem.passes[pass];
         keep_each_once(cells[pass]);
         patches[pass] = slices_of(cells[pass], layout.width);
-        std::vector<std::uint32_t> others;  // Neighbours that are read by links.
+        std::vector<std::uint32_t> others;  // The neighbours that links read.
         for (std::size_t k = 0; k < reader.fields.size(); ++k) {
             const auto* const temporary = std::get_if<TemporaryId>(&reader.fields[k]);
             if (temporary == nullptr) continue;

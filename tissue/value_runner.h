@@ -13,13 +13,13 @@
 
 namespace cascade {
 
-/// Evaluates the values. Owns the planes of each problem's results until clear().
+/// Evaluates values of cells. Owns the planes of each problem's results until clear().
 class ValueRunner {
 public:
     explicit ValueRunner(Team& team) : team_(team) {}
 
-    /// The values in this state. The next call for the same values overwrites the returned planes.
-    /// If `among` is not empty, only the values of these cells are needed.
+    /// The values in this state. The next call for the same CellValues overwrites the returned
+    /// planes. If `among` is not empty, only the values of these cells are needed.
     std::vector<Field>& run(const CellValues& values, std::vector<Field>& state,
                             const Tissue& tissue, const StepMoment& moment,
                             std::span<const std::uint32_t> among = {});
@@ -36,9 +36,9 @@ private:
         StepProblem problem;
         std::unique_ptr<PassRunner> runner;
         std::vector<Field> results;
-        std::vector<std::uint32_t> among;  ///< The cells of the last call.
+        std::vector<std::uint32_t> among;  ///< The argument `among` of the last call.
         std::vector<std::vector<Patch>>
-            patches;  ///< By pass: the patches that the pass must compute for the cells `among`.
+            patches;  ///< The patches that each pass must compute for `among`.
     };
     Team& team_;
     std::map<const StepProblem*, Known> known_;

@@ -19,7 +19,8 @@ struct Carried {
     /// Whether steps set denormal numbers to 0 in exactly the same operations as the native
     /// program.
     bool is_exact = false;
-    std::string overrides;  ///< In the same format as in pictures (run/script/embedded_script.h).
+    /// The overrides, in the format in which pictures contain them (run/script/embedded_script.h).
+    std::string overrides;
     /// The contents of files, each with its name in the script: NumPy arrays unchanged, pictures as
     /// pixels (picture/pixel_file.h), and the model with its cells (run/domain/carried_model.h).
     std::vector<std::pair<std::string, std::string>> files;

@@ -104,8 +104,8 @@ Result<std::string> LoadedModels::keep(const std::string& name, const std::strin
     return found;
 }
 
-/// The wanted name, or that name with a number if another file has it. If a file with the same
-/// bytes exists, its name.
+/// Returns the wanted name, with a number added if another file has this name. If a file with the
+/// same bytes exists, returns that file's name.
 Result<std::string> LoadedModels::free_name(const std::string& wanted,
                                             const std::string& bytes) const {
     const fs::path path(wanted);

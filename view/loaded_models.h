@@ -36,8 +36,8 @@ public:
 
     /// Adds the next part of a file. A part that has already arrived is ignored. If this was the
     /// last part, returns the name by which scripts find the model, and otherwise an empty name. If
-    /// the file is too large or is not a readable model, fails and discards it. Only one file can
-    /// arrive at a time: the first part of a file discards an incomplete earlier file.
+    /// the file is too large or is not a readable model, fails and discards the file. Only one file
+    /// can arrive at a time: the first part of a file discards an incomplete earlier file.
     Result<std::string> add(const LoadPart& part);
 
 private:
@@ -49,7 +49,8 @@ private:
     std::string name_;  ///< The name, the size and the bytes so far of the file that is arriving.
     std::uint64_t size_ = 0;
     std::string bytes_;
-    std::string kept_as_;     ///< The model's name for scripts, once the file is complete.
+    /// The name by which scripts find the model; empty until the file is complete.
+    std::string kept_as_;
     std::uint64_t kept_ = 0;  ///< The number of bytes of all stored models.
 };
 

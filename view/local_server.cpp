@@ -18,7 +18,7 @@ namespace serving {
 
 namespace {
 
-/// The server whose thread this is. Null in all other threads.
+/// The server that the current thread belongs to. Null in threads that belong to no server.
 thread_local const void* server_of_this_thread = nullptr;
 
 /// Prevents programs that are started to show the page from inheriting the port.
@@ -41,8 +41,8 @@ Result<void> Server::start() {
     try {
         if (auto opened = open_doors(); !opened) return opened;
         admission.emplace(port, token);
-        // Only this server may supply scripts and styles and be connected to. No other site may
-        // embed the page.
+        // The page may load scripts and styles only from this server, and connect only to it. No
+        // other site may embed the page.
         policy = fmt::format(
             "default-src 'self'; img-src 'self' blob: data:; worker-src 'self' blob:; "
             "connect-src 'self' ws://127.0.0.1:{0} ws://localhost:{0}; base-uri 'none'; "
@@ -94,8 +94,8 @@ Result<void> Server::open_doors() {
 void Server::accept(tcp::acceptor& door) {
     door.async_accept([this, &door](error_code error, tcp::socket socket) {
         if (is_closing_) return;
-        // If file descriptors have run out, accepting fails at once. Without this pause, the thread
-        // would try again without end.
+        // If file descriptors have run out, each attempt to accept a connection fails at once.
+        // Without this pause, the thread would try again without end.
         if (error) std::this_thread::sleep_for(std::chrono::milliseconds(10));
         if (!error && make_room()) {
             close_on_exec(socket);
@@ -106,8 +106,8 @@ void Server::accept(tcp::acceptor& door) {
     });
 }
 
-/// If there are too many connections, closes the oldest one that is not a page, so that idle
-/// clients cannot keep pages out. Returns false if every connection is a page.
+/// Makes room for a connection. If there are too many, closes the oldest connection that is not a
+/// page, so that idle clients cannot keep pages out. Returns false if every connection is a page.
 bool Server::make_room() {
     if (connections.size() < limits.connections) return true;
     Connection* oldest = nullptr;

@@ -40,7 +40,7 @@ struct PageHandlers {
 struct ServerLimits {
     std::size_t header_bytes = 8192;                   ///< For the headers of a request.
     std::size_t message_bytes = std::size_t{1} << 20;  ///< For each text from a page.
-    /// The most bytes of text that may wait to be sent to one page.
+    /// The largest number of bytes of text that may wait to be sent to one page.
     std::size_t waiting_text = std::size_t{16} << 20;
     std::size_t connections = 64;
     std::size_t pages = 8;
@@ -78,8 +78,8 @@ public:
     void send_frame(PageId page, int kind, SharedBytes bytes);
 
     /// Closes all pages and ends the server's thread, within half a second. Any thread may call
-    /// this function. Once it has returned, no handler is called any more. If a handler calls it,
-    /// the thread ends only after the handler has returned.
+    /// this function. Once stop() has returned, no handler is called any more. If a handler calls
+    /// stop(), the thread ends only after the handler has returned.
     void stop();
 
 private:

@@ -74,7 +74,7 @@ Json print_controls(const LiveRun& run) {
     return controls;
 }
 
-/// Prints the species of the current stage, first the one that its pictures show.
+/// Prints the species of the current stage, beginning with the species that its pictures show.
 Json print_species(const LiveRun& run) {
     Json names = Json::array();
     const Program& program = *run.script().program;

@@ -18,7 +18,7 @@ namespace cascade {
 /// All palettes, which do not change while a page is open.
 std::string print_palettes();
 
-/// The systems of the library. For each, a script that uses it and words by which users may search
+/// The systems of the library. Each has a script that uses it, and words by which users may search
 /// for it.
 std::string print_systems();
 
@@ -26,8 +26,8 @@ std::string print_systems();
 /// the species of the current stage.
 std::string print_script(const LiveRun& run);
 
-/// A number that changes whenever the result of print_script() changes: when the script changes and
-/// when a stage begins.
+/// A number that changes whenever the result of print_script() changes, that is, when the script
+/// changes or a stage begins.
 std::uint64_t version_of_script(const Snapshot& snapshot);
 
 /// The answer to the message with the number `id`. `text` is the script that the page shows. The
@@ -41,7 +41,7 @@ std::string print_failure(std::uint64_t id, const Failure& failure);
 /// `about` is the name of the GPU, or the reason why the engine is not WebGPU.
 std::string print_engine(std::string_view name, std::string_view about);
 
-/// Describes the slow operation in progress. Empty when it has ended.
+/// Describes the slow operation in progress. Empty when the operation has ended.
 std::string print_progress(const Progress& progress);
 
 /// The answer to a part of a model. Contains the model's name once the model is complete.

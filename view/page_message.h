@@ -20,14 +20,15 @@ namespace cascade {
 struct NamePage {
     std::string name;
 };
-/// The page has drawn its snapshot and is ready for the next.
+/// The page has drawn its snapshot and is ready for the next one.
 struct NextSnapshot {};
 // clang-format off
 // The following messages are questions, which change nothing.
 struct AskForLog {};
-struct AskForNames { std::string text; };  ///< Candidates for the last word of `text`.
-struct AskAboutName { std::string text; };  ///< The meaning of the last word of `text`.
-struct AskForFixes { std::string text; };  ///< Fixes for the errors in `text`.
+/// Asks for names that may complete the last word of `text`.
+struct AskForNames { std::string text; };
+struct AskAboutName { std::string text; };  ///< Asks for the meaning of the last word of `text`.
+struct AskForFixes { std::string text; };  ///< Asks for fixes of the errors in `text`.
 /// Asks for the spread of each species, and for its value in one cell. `cell` is column + width ·
 /// row, with rows counted through all slices, or −1 for no cell.
 struct AskForValues { std::int64_t cell = -1; };
@@ -38,9 +39,9 @@ struct AskForMeasures { std::string x, y; };
 struct AskForFeatures { std::string show; };
 /// Asks for a PNG file that contains the session.
 struct AskForPicture { PictureRequest request; };
-/// Asks for the declaration and the uses of the name at a byte of `text`.
+/// Asks where the name at a byte of `text` is declared and used.
 struct AskForUses { std::string text; std::size_t byte = 0; };
-/// Asks for `text` with the name at byte `byte` changed to `name`.
+/// Asks for `text` in which the name at byte `byte` is renamed to `name`.
 struct AskToRename { std::string text; std::size_t byte = 0; std::string name; };
 // clang-format on
 
@@ -60,8 +61,9 @@ using PageRequest = std::variant<SessionCommand, NextSnapshot, NamePage, AskForS
                                  PageQuestion, LoadPart, SaveModel>;
 
 struct PageMessage {
-    std::uint64_t id = 0;  ///< The number that the page has given to the message, to recognise the
-                           ///< answer. 0 if there is none.
+    /// The number that the page has given to the message, to recognise the answer. 0 if there is
+    /// none.
+    std::uint64_t id = 0;
     PageRequest request;
 };
 

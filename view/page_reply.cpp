@@ -35,7 +35,7 @@ using Json = nlohmann::json;
 
 constexpr std::size_t bins_of_histogram = 64, bins_of_density = 48;
 constexpr std::int64_t most_cells_of_spectrum = std::int64_t{1} << 20;
-/// Limited because each fix requires a check of the whole text.
+/// The number of fixes is limited, because each fix requires a check of the whole text.
 constexpr std::size_t most_fixes = 5;
 constexpr std::size_t largest_fixed_text = std::size_t{1} << 16;
 
@@ -67,14 +67,15 @@ Field values_of(const LiveRun& run, StageItem at) {
     return cells != nullptr ? row_of_cells(values, *cells) : std::move(values);
 }
 
-/// The grid on which a stage has its values. Crawling cells form one row.
+/// The grid on which the values of a stage lie. Crawling cells form one row.
 Grid grid_of(const LiveRun& run, std::uint32_t stage) {
     const auto cells = counts_of_cells(run.simulation().state(stage));
     if (!cells) return run.simulation().domain().grid;
     return Grid{std::max<std::int64_t>(cells->count, 1), 1};
 }
 
-/// Adds the present value of an item if it is uniform, and otherwise the range of its values.
+/// Adds the present value of an item if it is the same in all cells, and otherwise the range of its
+/// values.
 void add_values(Json& reply, const LiveRun& run, StageItem at) {
     const StageState& state = run.simulation().state(at.stage);
     if (!state.started) return;
@@ -171,7 +172,8 @@ void add_spectrum(Json& reply, const measure::Samples& samples) {
     reply["wavelength"] = measure::peak_wavelength(spectrum);
 }
 
-/// Replies with distribution and spectrum. Fails if a name is not a species of the present stage.
+/// Replies with the distribution and the spectrum. Fails if a name is not a species of the present
+/// stage.
 Json reply_to(const AskForMeasures& question, LiveRun& run) {
     Json reply = {{"kind", "measures"}};
     const Simulation& simulation = run.simulation();
@@ -240,7 +242,7 @@ Json reply_to(const AskForFixes& question, LiveRun& run) {
 
 Json reply_to(const AskForPicture& question, LiveRun& run) {
     PictureRequest request = question.request;
-    // The page shows a volume as slices, so its picture does, too.
+    // The page shows a volume as slices, so its picture shows slices, too.
     request.flat = request.flat || draws_body(run.script(), request);
     auto png = session_picture(run, request);
     if (png) return {{"kind", "picture"}, {"png", base64(*png)}};

@@ -1,5 +1,5 @@
-// The numbers of a page's requests increase. So a request was carried out before if its number is
-// at most that of the last request carried out.
+// The numbers of a page's requests increase. So a request has been carried out before if its number
+// is not above the number of the last request carried out.
 #include "view/page_requests.h"
 
 #include <algorithm>

@@ -26,7 +26,7 @@ public:
 
     struct Begun {
         std::shared_ptr<Page> page;
-        /// Whether the request is to be carried out, followed by a call of finish().
+        /// Whether the caller must carry out the request and then call finish().
         bool is_new = true;
         /// The stored answer, if the request was carried out before.
         std::optional<std::string> answer;

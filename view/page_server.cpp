@@ -123,15 +123,15 @@ void SurfaceSender::ask(std::uint64_t page, std::shared_ptr<const SurfaceSource>
     state_->has_wish.notify_all();
 }
 
-/// A page requests its next snapshot after it has drawn the last. So a slow page receives fewer
+/// A page requests its next snapshot after it has drawn the last one. So a slow page receives fewer
 /// snapshots.
 struct OpenPage {
     bool wants_snapshot = false;
     std::uint64_t seen = 0;  ///< The number of the last snapshot that was sent.
 };
 
-/// The most seconds for making a model's cells. Models that are loaded on a page may come from
-/// strangers.
+/// The largest number of seconds for making a model's cells. It is limited, because models that are
+/// loaded on a page may come from strangers.
 constexpr double most_model_seconds = 120;
 constexpr int snapshot_frame = 0, surface_frame = 1, file_frame = 2;
 

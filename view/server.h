@@ -39,7 +39,7 @@ using beast::error_code;
 
 class Connection;
 
-/// The time the server waits for pages to answer its close, and for clients to read a refusal.
+/// How long the server waits for pages to answer its close, and for clients to read a refusal.
 constexpr std::chrono::milliseconds farewell_time{500};
 
 /// The part of a connection to a page that threads other than the server's use. Only the server's
@@ -57,8 +57,8 @@ public:
 
     Result<void> start();
     void stop();
-    /// Calls `add` with the page's outbox, so that it can put a message there. Then makes the
-    /// server's thread send it.
+    /// Calls `add` with the page's outbox, so that `add` can put a message there. Then makes the
+    /// server's thread send the message.
     template <typename Add>
     void send(PageId page, const Add& add);
 
@@ -112,8 +112,8 @@ public:
     /// Sends the waiting messages, unless a message is being sent already.
     void send_waiting();
     void say_goodbye();
-    /// Whether this connection may be closed to make room for another. Pages and closed connections
-    /// may not.
+    /// Whether this connection may be closed to make room for another one. True of open connections
+    /// that are not pages.
     bool is_stranger() const { return page_ == 0 && !is_closed_; }
     const std::uint64_t number;  ///< Counted in order of arrival.
     void close() {

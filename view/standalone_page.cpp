@@ -18,7 +18,7 @@ namespace {
 
 constexpr int smallest = 12;
 
-/// Permits only the scripts of the page itself and the code of kernels.
+/// Permits only the scripts of the page itself and the machine code of kernels.
 constexpr std::string_view policy =
     "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
     "script-src 'unsafe-inline' 'wasm-unsafe-eval' blob:; worker-src blob:; "

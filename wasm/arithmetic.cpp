@@ -1,7 +1,7 @@
 // Products and quotients may be denormal and inexact at once. A result just below the least normal
 // number would then be rounded up to this number, although x86 flushes the result. Hence exact
-// kernels repeat the operation with operands enlarged by powers of two. This result is normal and
-// rounded to all digits, so it shows whether to flush.
+// kernels repeat the operation with operands enlarged by powers of two. The enlarged result is
+// normal and rounded to all digits, so it shows whether to flush.
 //
 // No operand is denormal, so enlarged operands overflow only if the true result is zero or far from
 // being denormal. The enlarged result is then infinite or NaN, and nothing is flushed.
@@ -12,7 +12,7 @@
 namespace cascade::wasm {
 namespace {
 
-/// The exponent of the power of two by which each of two factors is enlarged.
+/// Each of two factors is enlarged by the power of two with this exponent.
 int enlarging_power(Precision precision) { return precision == Precision::single ? 32 : 256; }
 
 }  // namespace
@@ -48,8 +48,8 @@ void Arithmetic::flush() {
     flush_below(0);
 }
 
-/// Repeats the operation with both operands scaled by powers of two, whose product scales the
-/// result.
+/// Repeats the operation with both operands multiplied by powers of two. The product of these
+/// powers is the factor of the result.
 void Arithmetic::with_larger_operands(Lanes operation, int first_power, int second_power) {
     const Local second = function_.keep(level_), first = function_.keep(level_);
     code_.get(first);

@@ -31,7 +31,7 @@ Body::Body(const KernelPart& part, Function& function, Cells& cells, bool is_exa
       schedule_(cell_schedule_of(kernel_, levels_)),
       readers_(kernel_.code.size()),
       values_(kernel_.code.size()) {
-    // The number of times that each value's code is written.
+    // The number of times that the code of each value is written.
     IdVector<ValueId, int> times(kernel_.code.size(), 1);
     for (const ValueId id : times.ids()) times[id] = levels_[id] < LoopLevel::link;
     for (const LinkLoop& loop : schedule_.loops) {
@@ -45,7 +45,7 @@ Body::Body(const KernelPart& part, Function& function, Cells& cells, bool is_exa
 }
 
 /// Whether a select chooses the lesser or the greater of the two numbers that its condition
-/// compares. WebAssembly has instructions for that, which do not flush.
+/// compares. WebAssembly has instructions for this choice, which do not flush.
 bool Body::is_bound(const Instruction& instruction) const {
     if (is_exact_ || instruction.op != Op::select) return false;
     const auto [a, b, c] = instruction.operands;
@@ -115,7 +115,7 @@ void Body::write_loop(const LinkLoop& loop) {
     for (const ValueId id : std::exchange(read_in_loop_, {})) release(id);
 }
 
-/// The result of a reduction for a cell without links, with which every reduction begins.
+/// The value with which a reduction begins, which is its result for a cell without links.
 Local Body::beginning_of(Op op) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     return function_.number(op == Op::link_sum ? 0 : op == Op::link_least ? infinity : -infinity);
@@ -153,7 +153,7 @@ void Body::store(std::size_t result) {
         cells_.store(part_.results[result], number(id));
     } else {
         // Without this flush, processors would compute with denormal numbers in every step while a
-        // field decays, which takes many times as long. Inside a step denormal numbers are rare, so
+        // field decays, and take many times as long. Inside a step denormal numbers are rare, so
         // other values are not flushed.
         code().get(number(id));
         Arithmetic(function_, LoopLevel::cell, true).flush();
@@ -308,7 +308,7 @@ void Body::push_choice(const Instruction& instruction) {
     code().write(Whole::choose);
 }
 
-// The algorithm is that of scale_by_power() in ir/word_operations.h.
+// The algorithm is the same as in scale_by_power() of ir/word_operations.h.
 void Body::push_scaled(ValueId a, ValueId b) {
     const WordFormat format = function_.format();
     code().get(operand(b));
@@ -361,7 +361,7 @@ void Body::push_shifted(const Instruction& instruction) {
     }
 }
 
-// There is no such instruction for vectors of 64-bit words, so lanes are converted one by one.
+// WebAssembly cannot convert vectors of 64-bit words, so lanes are converted one by one.
 void Body::push_converted(ValueId a) {
     code().get(number(a));
     if (function_.precision() == Precision::single) return code().write(Whole::numbers_of_words);

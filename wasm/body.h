@@ -19,8 +19,8 @@ public:
     Body(const KernelPart& part, Function& function, Cells& cells, bool is_exact);
 
     /// Writes the code of the values of a loop level. Must be called for each level, outer levels
-    /// first: at the level of cells once for each vector of the group, and at all other levels
-    /// once. The calls for cells also write the stores of results.
+    /// first. The level of cells needs one call for each vector of the group, and every other level
+    /// needs one call. The calls for cells also write the stores of results.
     void write(LoopLevel level);
 
 private:
@@ -56,7 +56,7 @@ private:
         code().get(operand(a));
         code().get(operand(b));
     }
-    /// Pushes an instruction. The operands are taken as numbers, as words or as truths.
+    /// Pushes the operands, as numbers, as words or as truths, and writes an instruction.
     void push_numbers(Lanes instruction, std::initializer_list<ValueId> operands) {
         for (const ValueId id : operands) code().get(operand(id));
         code().write(instruction);
@@ -87,11 +87,11 @@ private:
     bool is_exact_;
     IdVector<ValueId, LoopLevel> levels_;
     CellSchedule schedule_;
-    IdVector<ValueId, int> readers_;          ///< The number of instructions that read each value.
-    IdVector<ValueId, int> readers_to_come_;  ///< The number of reads of each value that have yet
-                                              ///< to be written in the present vector.
-    std::vector<ValueId> read_in_loop_;  ///< The values of cells that the present loop over links
-                                         ///< reads.
+    IdVector<ValueId, int> readers_;  ///< The number of instructions that read each value.
+    /// The number of reads of each value that have yet to be written in the present vector.
+    IdVector<ValueId, int> readers_to_come_;
+    /// The values of cells that the present loop over links reads.
+    std::vector<ValueId> read_in_loop_;
     IdVector<ValueId, Value> values_;
     LoopLevel level_ = LoopLevel::call;  ///< The level that is being written.
 };

@@ -1,4 +1,4 @@
-// The code that loads the sources of a kernel, which are its operations without operands, and that
+// Code that loads the sources of a kernel, which are its operations without operands, and code that
 // stores its results.
 //
 // Internal to wasm/. A loop computes a group of vectors of cells in each pass. Addresses of rows
@@ -30,15 +30,15 @@ enum class Parameter : std::uint32_t {
     row_begin,
     row_end,
     shared_parameters,
-    // For grids of one slice.
+    // Further parameters for grids of one slice.
     left_column = shared_parameters,
     right_column,
     plane_parameters,
-    // For grids of several slices.
+    // Further parameters for grids of several slices.
     slice_rows = shared_parameters,
     slice,
     volume_parameters,
-    // For linked cells.
+    // Further parameters for linked cells.
     starts = shared_parameters,
     bases,
     offsets,
@@ -97,7 +97,7 @@ public:
     // Return a local with the following values, one for each lane, valid until the end of the body.
     /// The value of a field in the cell to which each lane's link leads.
     virtual Local theirs(FieldSlot slot);
-    /// All bits of a lane are set if it has a link, else all are clear.
+    /// All bits of a lane are set if the lane has a link, and clear otherwise.
     virtual Local is_link();
 
     void store(std::size_t result, Local number);
@@ -106,7 +106,8 @@ public:
     void fill_columns(Code& code, std::size_t result, Local row_end);
 
 protected:
-    /// A field, and the columns, rows and slices from the cell to the cell where the field is read.
+    /// A field, and the distance in columns, rows and slices to the cell in which the field is
+    /// read.
     struct Reading {
         FieldSlot slot;
         int dx = 0, dy = 0, dz = 0;
@@ -117,7 +118,8 @@ protected:
     Arithmetic arithmetic() { return {function_, LoopLevel::cell, is_exact_}; }
 
     Local load(const Reading& reading);
-    /// Like load(), but flushed in exact kernels, for use as an operand of arithmetic.
+    /// Does the same as load(), but flushes the value in exact kernels, for use as an operand of
+    /// arithmetic.
     Local operand(const Reading& reading);
     /// The address of the plane with this slot in `table`, minus pad_bytes().
     Local plane(Parameter table, std::size_t slot);
@@ -156,7 +158,7 @@ private:
 
     std::map<std::pair<Parameter, std::size_t>, Local> planes_;
     std::map<std::pair<int, int>, Local> row_offsets_;
-    std::map<RowOfPlane, Local> addresses_;  ///< Computed for the whole group.
+    std::map<RowOfPlane, Local> addresses_;  ///< The addresses that serve the whole group.
     std::map<Reading, Local> loads_, operands_;
     std::vector<Local> kept_;  ///< The locals to release at the end of the vector.
 };

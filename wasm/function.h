@@ -68,7 +68,7 @@ private:
 
     Precision precision_;
     std::uint32_t parameters_;
-    std::array<Code, 4> codes_;  ///< By loop level.
+    std::array<Code, 4> codes_;  ///< The code of each loop level.
     std::vector<LocalType> types_;
     std::array<std::array<std::vector<Local>, 2>, 2> free_;
     std::map<std::uint64_t, Local> constants_;

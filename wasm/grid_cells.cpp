@@ -27,8 +27,8 @@ private:
     void compute_again_unless_finite();
     double multiple() const { return 2.0 * stencil_.axes(); }
 
-    std::map<int, std::map<FieldSlot, Local>> laplacians_;  ///< By the index of the vector in the
-                                                            ///< group.
+    /// By the index of the vector in the group.
+    std::map<int, std::map<FieldSlot, Local>> laplacians_;
 };
 
 /// Calls `write` for every vector of the group and every field whose Laplacian is used.

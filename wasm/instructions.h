@@ -53,8 +53,8 @@ enum class Whole : std::uint8_t {
     bits_and_not = 0x4f,
     bits_or = 0x50,
     bits_xor = 0x51,
-    choose = 0x52,  ///< Bit by bit.
-    any = 0x53,     ///< 1 if any bit is set.
+    choose = 0x52,  ///< Chooses bit by bit.
+    any = 0x53,     ///< The result is 1 if any bit is set.
     load_32_zero = 0x5c,
     widen_8 = 0x89,  ///< Widens the lower half of the lanes, without sign.
     widen_16 = 0xa9,

@@ -11,9 +11,9 @@ namespace {
 
 constexpr std::size_t most_instructions = 20000;
 
-/// The number of vectors computed in one pass of the loop: two for small kernels, so that the loop
-/// counter and addresses take little time. Kernels may write this many vectors behind the last cell
-/// of a row.
+/// The number of vectors computed in one pass of the loop. It is two for small kernels, so that the
+/// loop counter and addresses take little time. Kernels may write this many vectors behind the last
+/// cell of a row.
 int vectors_of_group(const CellKernel& kernel) {
     constexpr std::size_t largest_in_pairs = 64;
     return kernel.code.size() <= largest_in_pairs ? 2 : 1;
@@ -46,7 +46,7 @@ void write_columns(Code& code, Cells& cells, const std::vector<std::size_t>& res
     code.close();
 }
 
-/// Ends a loop: counts `counter` up, and begins anew while it is `less` than `end`.
+/// Ends a loop: adds `step` to `counter`, and begins anew while `counter` is `less` than `end`.
 void close_loop(Code& code, Local counter, int step, Local end, Plain less) {
     code.get(counter);
     code.integer(step);

@@ -85,9 +85,8 @@ private:
         return of_loop_.back();
     }
 
-    std::map<int, Vector> vectors_;  ///< By the vector's index in the group.
-    // Locals of the loop: the addresses of the entry's data, and the address at which the bases
-    // end.
+    std::map<int, Vector> vectors_;  ///< By the index of the vector in the group.
+    // Locals of the loop: the addresses of the entry's data, and the end of the addresses of bases.
     std::vector<Local> of_loop_;
     Local base_at_{}, bases_end_{}, offsets_at_{}, filled_at_{};
     Local lane_{};  ///< The lane, in its slice, of the group's first cell.
@@ -348,7 +347,8 @@ Local LinkedCells::theirs(FieldSlot slot) {
     return known->second;
 }
 
-/// Like theirs(), but flushed in exact kernels, for use as an operand of arithmetic.
+/// Does the same as theirs(), but flushes the values in exact kernels, for use as operands of
+/// arithmetic.
 Local LinkedCells::at_targets(FieldSlot slot) {
     if (!is_exact_) return theirs(slot);
     const auto [known, is_new] = operands_.try_emplace(slot);

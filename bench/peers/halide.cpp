@@ -62,8 +62,8 @@ void check_agreement(Backend& backend, const System& system, HalideProgram& prog
     std::exit(1);
 }
 
-/// The programs of a system by schedule. Each is made and checked when first needed, because
-/// compiling takes seconds.
+/// The programs of a system, by schedule. Each program is made and checked when it is first needed,
+/// because compiling takes seconds.
 class Programs {
 public:
     Programs(Backend& backend, const System& system) : backend_(backend), system_(system) {}
@@ -87,7 +87,7 @@ std::string title(const System& system, std::int64_t side, const std::string& wh
     return fmt::format("{}/{}/{}", system.name, side, who);
 }
 
-/// One system at one size, on both sides.
+/// Both sides of the comparison, for one system at one size.
 struct Contest {
     Contest(const System& system, const GridSize& grid, Backend& backend)
         : ours(system.text(grid), backend), theirs(ours, system.varying) {}

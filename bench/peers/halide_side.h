@@ -32,7 +32,7 @@ struct HalideSchedule {
     };
     Kind kind = Kind::rows;
     int steps = 1;   ///< Steps per pass through memory, at most HalideProgram::most_steps.
-    int width = 0;   ///< The width of tiles, or of strips for windows; 0: the grid's width.
+    int width = 0;   ///< The width of tiles, or of strips for windows. 0 means the grid's width.
     int height = 1;  ///< The height of tiles. For `rows`, the number of rows at once.
 
     std::string name() const;
@@ -62,7 +62,8 @@ private:
     std::vector<Halide::ImageParam> now_;
     Halide::ImageParam varying_{Halide::Float(32), 2}, frozen_{Halide::UInt(8), 2};
     Halide::Var x_{"x"}, y_{"y"};
-    std::vector<Halide::Func> steps_;  ///< From the old step to the new one.
+    /// The functions of all steps, from the old one to the new one.
+    std::vector<Halide::Func> steps_;
     Halide::Target target_;
     Halide::Pipeline pipeline_;
 };
@@ -73,8 +74,8 @@ public:
     /// `varying` is the name of the parameter that varies by cell, or empty.
     HalideSide(const CascadeSide& like, const std::string& varying);
 
-    /// Takes `count` steps with a program of the same system. `count` is a multiple of its
-    /// schedule's steps.
+    /// Takes `count` steps with a program of the same system. `count` is a multiple of the number
+    /// of steps of the program's schedule.
     void advance(HalideProgram& program, std::int64_t count);
 
     /// Copies of the species.

@@ -55,11 +55,12 @@ struct PatternParameter {
     };
     std::string stage;
     std::string name;
-    std::string doc;  ///< The comment in the script that describes the parameter. May be empty.
+    /// The comment in the script that describes the parameter; empty if there is none.
+    std::string doc;
     std::optional<Range> range;  ///< The range that the script gives as `in low .. high step s`.
     bool is_uniform = true;      ///< Whether the value is the same in all cells.
-    double value = 0;  ///< The present value. NaN if it is not the same in all cells or if its
-                       ///< stage has not begun.
+    /// The present value. NaN if it is not the same in all cells or if its stage has not begun.
+    double value = 0;
 };
 
 /// A measured feature of a pattern (spec/command_line.md). NaN if the pattern does not have it.
@@ -112,9 +113,9 @@ struct PatternModel {
     /// The pairs of adjacent cells, between which species diffuse. Each pair occurs once, with the
     /// lower cell first.
     std::vector<std::uint32_t> links;
-    /// For each pair, the length of the edge between both cells divided by their distance. This is
-    /// the flow between them for a difference of 1 (G. Turk, "Texturing Surfaces Using
-    /// Reaction-Diffusion", thesis, 1992, section 4.4).
+    /// For each pair, the length of the edge between both cells divided by the distance of the
+    /// cells. This number is the flow between the cells for a difference of 1 (G. Turk, "Texturing
+    /// Surfaces Using Reaction-Diffusion", thesis, 1992, section 4.4).
     std::vector<double> weights;
     std::vector<double> vertices;          ///< The points of the model's triangles.
     std::vector<std::uint32_t> triangles;  ///< Three vertices each, counterclockwise from outside.
@@ -148,8 +149,8 @@ public:
     /// at the script's folder. `options.name` and `options.folder` are ignored.
     static Pattern open(const std::string& path, const PatternOptions& options = {});
 
-    /// The number of columns of the grid. 0 if the script has errors. On a model, all cells are in
-    /// one row, and this is their number.
+    /// The number of columns of the grid. 0 if the script has errors. A model counts as one row, so
+    /// this is the number of its cells.
     std::int64_t width() const;
     std::int64_t height() const;  ///< The number of rows.
     std::int64_t depth() const;   ///< The number of slices. 1 for a plane.
@@ -172,8 +173,7 @@ public:
     bool run(const ProgressWatcher& watcher = {});
     /// Whether every stage has taken all its steps.
     bool finished() const;
-    /// The name of the stage that takes steps now. If all stages have ended, the name of the last
-    /// one.
+    /// The name of the stage that takes steps now, or of the last stage if all stages have ended.
     std::string current_stage() const;
     /// The number of complete steps of the current stage.
     std::int64_t steps() const;
@@ -206,8 +206,8 @@ public:
     bool set_values(const std::string& item, const std::vector<double>& values);
     /// Ends the current stage at its present step, and begins the next one.
     bool begin_next_stage();
-    /// undo() returns to the moment before the last change, and redo() returns from there, both bit
-    /// for bit.
+    /// undo() returns to the moment before the last change, and redo() to the moment before the
+    /// last undo(), both bit for bit.
     bool undo();
     bool redo();
     /// The log of all steps and changes, as text. play() repeats the log and makes the same
@@ -260,9 +260,9 @@ public:
     bool write(const std::string& path, const std::string& options = "{}");
     /// Takes all remaining steps, and writes a film of them: a frame after every `every` steps, at
     /// the start and at the end. If `every` is 0, the smallest interval of the stages is used,
-    /// where a stage without an interval counts with a fiftieth of its steps. `options` are as in
-    /// write(), and "fps" or "seconds". `watcher` is called as in step(), and while frames are
-    /// drawn. If it cancels the film, no file is written.
+    /// where a stage without an interval counts with a fiftieth of its steps. `options` takes the
+    /// options of write(), and also "fps" or "seconds". `watcher` is called as in step(), and while
+    /// frames are drawn. If it cancels the film, no file is written.
     bool film(const std::string& path, std::int64_t every = 0, const std::string& options = "{}",
               const ProgressWatcher& watcher = {});
     /// The script as a page that runs in browsers without the program, as `cascade export` writes

@@ -83,13 +83,13 @@ CASCADE_C_API const char* cascade_last_message(void);
 /* Options for running a pattern. Zeros and null pointers select the defaults. */
 typedef struct cascade_options {
     size_t size;             /* sizeof(cascade_options) */
-    int32_t interpret;       /* Not 0: equations are not compiled. Same results. */
+    int32_t interpret;       /* Not 0: equations are interpreted; same results. */
     int32_t threads;         /* 0: as many as the machine has. */
     const char* name;        /* The script's name in messages. Default "<script>". */
     const char* folder;      /* Where relative paths in the script start. Default ".". */
     size_t set_count;        /* Values of parameters and settings, like --set: */
     const char* const* sets; /* "ka=1/80", "spots.ka=1/80". */
-    int32_t has_seed;        /* Not 0: this seed replaces the script's: */
+    int32_t has_seed;        /* Not 0: `seed` replaces the script's seed. */
     uint32_t seed;
 } cascade_options;
 
@@ -163,7 +163,7 @@ typedef struct cascade_progress {
     const char* stage;
     int32_t stage_number, stage_count; /* Counted from 1. */
     int64_t step, steps;
-    double t, duration;      /* `duration` is 0 unless the stage ends after one. */
+    double t, duration;      /* `duration` is 0 unless it ends the stage. */
     double steps_per_second; /* 0 while unknown. */
     double seconds_left;     /* Until the stage ends. Negative while unknown. */
 } cascade_progress;
@@ -263,9 +263,9 @@ typedef struct cascade_model {
     const double* points;      /* 3 for each cell, in the order of cascade_values(). */
     const double* areas;       /* 1 for each cell. */
     const uint32_t* links;     /* 2 cells for each link, the lower one first. */
-    const double* weights;     /* 1 for each link: the length of the edge over the distance. */
+    const double* weights;     /* 1 for each link: the edge's length divided by the distance. */
     const double* vertices;    /* 3 for each vertex. */
-    const uint32_t* triangles; /* 3 vertices for each, counterclockwise from outside. */
+    const uint32_t* triangles; /* 3 for each triangle, counterclockwise from outside. */
 } cascade_model;
 /* Refused if the pattern grows on a grid. Since version 2. */
 CASCADE_C_API cascade_status cascade_get_model(cascade_pattern* pattern, cascade_model* model);

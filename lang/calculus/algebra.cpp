@@ -10,7 +10,7 @@
 
 namespace cascade {
 
-/// A simpler node with the same value as the call; empty if there is none.
+/// A simpler node with the same value as the call; nullopt if there is none.
 std::optional<NodeId> Algebra::simpler(Function function, const Operands& operands) {
     const auto [a, b, c] = std::array{operands[0], operands[1], operands[2]};
     const Node& first = (*this)[a];

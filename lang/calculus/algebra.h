@@ -1,6 +1,6 @@
-// Expression graphs that simplify themselves. Used for formulas derived from other formulas, such
-// as derivatives. A pattern is always computed by formulas as their author wrote them, without
-// these simplifications.
+// Expression graphs that simplify themselves. Used for formulas that are derived from other
+// formulas, such as derivatives. A pattern is always computed by the formulas as their author wrote
+// them, without these simplifications.
 #pragma once
 
 #include "lang/program/flatten.h"
@@ -8,14 +8,14 @@
 namespace cascade {
 
 /// A graph in which functions of constants are evaluated, and sums and products are simplified if
-/// an operand is 0 or 1 or if both operands are numbers. A product with 0 becomes 0, although the
-/// other factor may be infinite or NaN.
+/// an operand is 0 or 1. A product with 0 becomes 0, although the other factor may be infinite or
+/// NaN.
 class Algebra : public ExpressionGraph {
 public:
     NodeId call(Function function, std::initializer_list<NodeId> operands,
                 ValueType type = ValueType::number) override;
-    /// Applies the function of a node to the node's operands, which must be one to three nodes of
-    /// this graph.
+    /// Applies the function of a node to the node's operands. There must be one to three operands,
+    /// which are nodes of this graph.
     NodeId call_of(const Node& node);
 
     NodeId sum(NodeId a, NodeId b) { return call(Function::add, {a, b}); }
@@ -37,9 +37,11 @@ inline constexpr std::size_t most_calculus_nodes = 100'000;
 
 /// The rates of a system in one graph.
 struct FlatRates {
-    Algebra algebra;  ///< The nodes of the rates come first, then nodes computed from them.
+    /// The graph. The nodes of the rates come first, followed by nodes computed from them.
+    Algebra algebra;
     Flattening flattening;
-    std::size_t count = 0;  ///< Nodes below this number belong to the rates.
+    /// The number of nodes that belong to the rates. They are the first nodes of the graph.
+    std::size_t count = 0;
 
     /// If `space` is given, vectors of fields are expanded into components.
     explicit FlatRates(const System& system, const std::optional<FieldSpace>& space = {})
@@ -51,8 +53,8 @@ struct FlatRates {
     NodeId rate(ItemId species) const { return flattening.rate(species); }
 };
 
-/// The formula, with each definition and rate in it replaced by that definition's or rate's
-/// formula. The system must be free of errors.
+/// The formula, in which the formulas of definitions and rates take the place of the nodes that
+/// read them. The system must be free of errors.
 Formula without_definitions(const System& system, const Formula& formula);
 /// The distances d of the sums `over near(d)` in a formula.
 std::vector<Formula> near_distances(const Formula& formula);

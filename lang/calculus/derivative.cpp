@@ -15,7 +15,7 @@ namespace cascade {
 
 namespace {
 
-/// The slopes of all subexpressions of the rates with respect to a species. Empty if there is no
+/// The slopes of all subexpressions of the rates with respect to a species. nullopt if there is no
 /// rule for a subexpression that a rate needs, or if there are too many slopes.
 std::optional<IdVector<NodeId, Slopes>> slopes_of(FlatRates& rates, SlopeRules& rules,
                                                   ItemId species) {
@@ -29,8 +29,8 @@ std::optional<IdVector<NodeId, Slopes>> slopes_of(FlatRates& rates, SlopeRules& 
     return slopes;
 }
 
-/// Bounds of one row or column of the matrix of slopes. A row contains the slopes of one rate with
-/// respect to all species, and a column the slopes of all rates with respect to one species.
+/// Bounds for one row or column of the matrix of slopes. A row contains the slopes of one rate with
+/// respect to all species. A column contains the slopes of all rates with respect to one species.
 class LineBound {
 public:
     explicit LineBound(Algebra& algebra)
@@ -61,8 +61,8 @@ public:
     Term at_rest() { return abs(own_) + others_; }
     bool has_cross_diffusion() const { return !cross_diffusion_.empty(); }
 
-    /// The largest growth of a wave of any length, or the bound of the reaction alone if that is
-    /// larger.
+    /// The largest growth of a wave of any length. If the bound of the reaction alone is larger,
+    /// this bound.
     Term reaction() {
         Term most = abs(own_);
         for (const double x : lengths()) most = max(most, growth(x));
@@ -70,10 +70,10 @@ public:
     }
 
 private:
-    /// The values of x (relative to the largest gain) at which the growth of waves is evaluated.
-    /// Growth that is linear in x is largest at an end. With nested operators it may be largest in
-    /// between. Adjacent values then differ by a factor √2, so the maximum of a parabola is
-    /// underestimated by at most 4 %.
+    /// The values of x, relative to the largest gain, at which the growth of waves is evaluated.
+    /// Growth that is linear in x is largest at one end of the range. With nested operators, growth
+    /// may be largest inside the range. In this case adjacent values of x differ by a factor √2, so
+    /// the maximum of a parabola is underestimated by at most 4 %.
     std::vector<double> lengths() const {
         std::size_t degree = 0;
         for (const auto* diffusions : {&own_diffusion_, &cross_diffusion_}) {
@@ -114,7 +114,7 @@ Term largest(const std::vector<Term>& parts) {
     return most;
 }
 
-/// A formula for the largest value of `part` over the domain.
+/// A formula for the largest value that `part` has in the domain.
 Formula over_domain(const Algebra& algebra, Term part) {
     return algebra.formula(algebra.is_number(part) ? part : domain_max(part));
 }
@@ -153,10 +153,10 @@ public:
         return largest(parts);
     }
 
-    /// A matrix and its transpose have the same eigenvalues, so the bound from the columns is
-    /// valid, too. It may be smaller than the bound from the rows: if one species drags another
-    /// along, as bait drags cells, the column of the first may have a smaller bound than the row of
-    /// the second.
+    /// A bound of the reaction. A matrix and its transpose have the same eigenvalues, so the bound
+    /// from the columns is valid, too. It may be smaller than the bound from the rows: if one
+    /// species drags another along, as bait drags cells, the column of the first species may have a
+    /// smaller bound than the row of the second.
     Term reaction() {
         const Term by_rows = growth_in(rows_);
         const auto crosses = [](const LineBound& row) { return row.has_cross_diffusion(); };

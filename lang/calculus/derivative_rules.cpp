@@ -41,7 +41,8 @@ std::optional<Term> slope_of(Algebra& algebra, const Node& call, std::size_t n) 
 }  // namespace
 
 std::optional<NodeId> partial_derivative(Algebra& algebra, const Node& call, std::size_t n) {
-    const Node copy = call;  // A copy, because `call` may be in the algebra's list, which grows.
+    // This must be a copy, because `call` may be an element of the algebra's list, which grows.
+    const Node copy = call;
     const auto slope = slope_of(algebra, copy, n);
     if (!slope) return std::nullopt;
     return slope->id;

@@ -8,8 +8,8 @@
 
 namespace cascade {
 
-/// ∂(the call)/∂(its operand n), if there is a rule for the function. Rules for operators of
-/// derivatives are in lang/calculus/slopes.h.
+/// The derivative of the call with respect to its operand n. nullopt if there is no rule for the
+/// function. Rules for operators of derivatives are in lang/calculus/slopes.h.
 std::optional<NodeId> partial_derivative(Algebra& algebra, const Node& call, std::size_t n);
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
 // Goes through the subexpressions of the rates, operands first. Writes each subexpression as a sum
-// of operators that are applied to the species.
+// of operators applied to the species.
 #include "lang/calculus/diffusion.h"
 
 #include "lang/calculus/derivative_rules.h"
@@ -17,8 +17,8 @@ namespace cascade {
 
 namespace {
 
-/// How a subexpression of a rate depends on the species: directly (`own`), and through the
-/// operators of DiffusionTerms.
+/// How a subexpression of a rate depends on the species: directly (`own`), or through the operators
+/// of DiffusionTerms.
 struct Operators {
     Term own;
     DiffusionTerms<Term> terms{};
@@ -45,7 +45,7 @@ public:
           face_(face),
           zero_{&algebra_, algebra_.number(0)} {}
 
-    /// The operators of all subexpressions. Stops early if there are too many nodes.
+    /// Finds the operators of all subexpressions. Stops early if there are too many nodes.
     IdVector<NodeId, Operators> run() && {
         found_.reserve(rates_.count);
         while (found_.size() < rates_.count && algebra_.size() < most_calculus_nodes) {
@@ -84,7 +84,7 @@ private:
         const bool is_vector = node.type == ValueType::vector;
         for (std::size_t n = 0; n < node.operand_count; ++n) {
             const NodeId operand = node.operands[n];
-            // A gradient multiplied by a factor that depends on the species is drift, not
+            // If the factor of a gradient depends on the species, this dependence is drift and not
             // diffusion.
             if (is_vector && algebra_[operand].type != ValueType::vector) continue;
             if (is_nothing(found_[operand])) continue;
@@ -105,7 +105,7 @@ private:
     }
 
     /// The value of `coordinate` at the face minus its value at the centre of the cell. 0 unless
-    /// `coordinate` is a position along the axis across the face. Also 0 on surfaces, where
+    /// `coordinate` is the position along the axis that crosses the face. Also 0 on surfaces, where
     /// positions do not follow the rows and columns.
     double way_to_face(Builtin coordinate) const {
         const DomainSettings& domain = program_.domain;
@@ -146,8 +146,8 @@ private:
         return moved[root];
     }
 
-    /// Applies lap. Drops powers of lap above the highest in DiffusionTerms, and lap of an operator
-    /// along a single axis.
+    /// Applies lap. Drops powers of lap higher than the highest in DiffusionTerms. Drops lap of an
+    /// operator along a single axis.
     Operators laplacian(const Operators& of) const {
         Operators result = nothing();
         result.terms[0] = of.own;

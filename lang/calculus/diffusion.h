@@ -12,7 +12,7 @@
 
 namespace cascade {
 
-/// A formula for each factor of a species' diffusion. A factor of 0 is a formula without nodes.
+/// For each factor of a species' diffusion, a formula. A factor of 0 is a formula without nodes.
 /// Solvers use the largest value of each formula over all cells.
 using SpeciesDiffusion = DiffusionTerms<Formula>;
 
@@ -26,9 +26,10 @@ using SpeciesDiffusion = DiffusionTerms<Formula>;
 /// - A derivative with respect to the species' own value that is the same in all cells counts as
 ///   decay, if there is any diffusion.
 /// - Everything else (advection, tensors in fluxes, random numbers, other species) is left out.
-/// With a `face`, positions in factors outside operators are those at the faces of that side, not
-/// at the centres of the cells beside it. A factor inside div(k * grad(e)) is read at the centres,
-/// because div mirrors it at the side.
+///
+/// If `face` is given, positions in factors outside of operators are positions at the faces of this
+/// side, and not at the centres of the cells beside the side. A factor inside div(k * grad(e)) is
+/// read at the centres, because div mirrors it at the side.
 IdVector<SpeciesId, SpeciesDiffusion> diffusion_of(const Program& program, std::uint32_t stage,
                                                    std::optional<Side> face = {});
 

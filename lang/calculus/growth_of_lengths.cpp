@@ -1,5 +1,5 @@
-// Divides each length of the domain, a formula of time, by the length of the grid along the same
-// axis, and finds its logarithmic derivative.
+// Divides each length of the domain by the length of the grid along the same axis, and finds the
+// logarithmic derivative of the result. Lengths are formulas of time.
 #include "lang/calculus/growth_of_lengths.h"
 
 #include "lang/calculus/algebra.h"
@@ -15,11 +15,11 @@ namespace cascade {
 
 namespace {
 
-/// Two numbers count as equal if their relative difference is below this, because the lengths of a
-/// script are rounded.
+/// Two numbers count as equal if their relative difference is below this number, because the
+/// lengths in a script are rounded.
 constexpr double same_number = 1e-9;
 
-/// Sums that are nested more deeply than this are divided as a whole.
+/// Sums that are nested more deeply than this number are divided as a whole.
 constexpr int deepest_sum = 32;
 
 class LengthRules {
@@ -37,7 +37,7 @@ public:
     /// 10 * exp(t) / 10 becomes exp(t).
     Formula divided_by(double divisor) { return algebra_.formula(divided(root_, divisor, 0)); }
 
-    /// d/dt ln(length); empty if there is no rule.
+    /// The derivative d/dt ln(length); nullopt if there is no rule.
     std::optional<Formula> logarithmic_derivative() {
         if (!derive()) return std::nullopt;
         return algebra_.formula(logarithmic_[root_]);
@@ -93,8 +93,8 @@ private:
         return sum;
     }
 
-    /// Products and powers have simple logarithmic derivatives, so that the one of 10 * exp(r * t)
-    /// is the number r.
+    /// Products and powers have simple logarithmic derivatives. For example, the logarithmic
+    /// derivative of 10 * exp(r * t) is the number r.
     NodeId logarithmic_slope_of(NodeId id) {
         const Node node = algebra_[id];
         const auto [a, b] = std::array{node.operands[0], node.operands[1]};

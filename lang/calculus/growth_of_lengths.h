@@ -9,9 +9,9 @@
 
 namespace cascade {
 
-/// The growth of a domain with these lengths along x, y and z. The lengths are formulas of numbers
-/// and `t`. Axes for which none is given grow like the first. The dilution is the sum of the
-/// logarithmic derivatives of the lengths. Empty if there is no rule for the derivative of a
+/// The growth of a domain with the given lengths along x, y and z, which are formulas of numbers
+/// and `t`. Axes without a given length grow like the first axis. The dilution is the sum of the
+/// logarithmic derivatives of the lengths. nullopt if there is no rule for the derivative of a
 /// length. The caller must set `written` and `span`.
 std::optional<Growth> growth_of(std::span<const Formula> lengths, const Grid& grid);
 

@@ -34,7 +34,7 @@ void LostNumbers::know_all_parts() {
                 may = may || may_be_nan_[operand];
                 is_of_file = is_of_file || reads_file_[operand];
             }
-            // A comparison yields 0 or 1, even if an operand is NaN.
+            // The result of a comparison is 0 or 1, even if an operand is NaN.
             may = may && !is_of_file && !is_comparison(node.function);
         }
         may_be_nan_.push_back(may);
@@ -68,13 +68,12 @@ public:
 
 private:
     static constexpr std::size_t none = SIZE_MAX;
-    /// Limits of the search. Formulas that people write contain far fewer comparisons and
-    /// conditions.
+    /// Limits of the search. Formulas that people write have far fewer comparisons and conditions.
     static constexpr std::size_t most_found = 64, most_guards = 64;
 
-    /// A condition that decides in which cells the values of some subexpressions matter: where the
-    /// node `part` is not 0 or, if `is_zero`, where this node is 0. `around` is the index of the
-    /// enclosing condition.
+    /// A condition that decides in which cells the values of some subexpressions matter. They
+    /// matter where the node `part` is not 0 or, if `is_zero`, where `part` is 0. `around` is the
+    /// index of the enclosing condition.
     struct Guard {
         NodeId part;
         bool is_zero = false;
@@ -88,7 +87,7 @@ private:
         return guards_.size() - 1;
     }
 
-    /// A node that several nodes read is visited once.
+    /// Adds a node to the nodes to visit. A node that several nodes read is visited only once.
     void visit_later(NodeId id, std::size_t guard) {
         if (seen_[id] || (guard != none && guards_[guard].depth > most_guards)) return;
         seen_[id] = true;
@@ -136,7 +135,7 @@ private:
     Algebra& algebra_;
     const IdVector<NodeId, bool>& may_be_nan_;
     IdVector<NodeId, bool> seen_;
-    /// Subexpressions to visit, with the index of their innermost guard.
+    /// The subexpressions to visit. For each, the index of its innermost guard.
     std::vector<std::pair<NodeId, std::size_t>> waiting_;
     std::vector<Guard> guards_;
     std::vector<LostNumber> found_;

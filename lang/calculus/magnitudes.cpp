@@ -1,5 +1,6 @@
-// Computes two bounds for each node, from the leaves of an expression graph to its roots: a bound
-// of the node's value, and a bound of the error made by subexpressions that count as 0.
+// Computes two bounds for each node, from the leaves of an expression graph to its roots. One is a
+// bound of the node's value. The other is a bound of the error that arises because some
+// subexpressions count as 0.
 #include "lang/calculus/magnitudes.h"
 
 #include "lang/calculus/algebra.h"
@@ -14,20 +15,21 @@ namespace cascade {
 
 namespace {
 
-/// The least and the largest normal number of single precision. Smaller numbers count as 0.
+/// The smallest and the largest normal number of single precision. Smaller numbers count as 0.
 constexpr double least_single = 0x1p-126, largest_single = 3.4028235e38;
-/// A term that is smaller than this fraction of a number is less than half of the number's last
-/// digit.
+/// A term that is smaller than this fraction of a number is less than half a unit in the last place
+/// of the number.
 constexpr double least_added = 0x1p-25;
 
 struct Part {
     Magnitude size;
-    double lost = 0;  ///< A bound of the total of all parts that count as 0 because they are too
-                      ///< small.
+    /// A bound of the sum of all parts that count as 0 because they are too small.
+    double lost = 0;
     std::optional<NodeId> lost_by = {};  ///< The part that counts as 0.
-    std::optional<NodeId> within = {};   ///< The part to which `lost_by` was added, if any.
+    /// The part to which `lost_by` was added; nullopt if it was not added.
+    std::optional<NodeId> within = {};
     std::optional<NodeId> too_large = {};
-    std::optional<double> number = {};  ///< The value, if it is a constant.
+    std::optional<double> number = {};  ///< The value, if the node is a constant.
 
     static Magnitude either(const Magnitude& a, const Magnitude& b) {
         return {std::min(a.least, b.least), std::max(a.most, b.most),
@@ -44,7 +46,8 @@ struct Part {
         const double least = std::max({lowest, -highest, a.least - b.most, b.least - a.most, 0.0});
         return {{least, std::isnan(most) ? INFINITY : most, lowest >= 0, highest <= 0}, lost};
     }
-    /// The bounds `least` and `most`, with the sign of a product or quotient of a and b.
+    /// The magnitude with the bounds `least` and `most`. Its sign is the sign of a product or
+    /// quotient of a and b.
     static Magnitude with_sign(double least, double most, const Part& a, const Part& b) {
         const Magnitude &x = a.size, &y = b.size;
         return {least, most, (x.is_positive && y.is_positive) || (x.is_negative && y.is_negative),
@@ -53,8 +56,7 @@ struct Part {
     static Part truth() { return {{0, 1, true}}; }
     static Part within_one(const Part& a) { return {{0, 1, false}, a.lost}; }
 
-    // The bounds of functions, by their names in functions.def. The values of all other functions
-    // are unbounded.
+    // The bounds of functions, by their names in functions.def. All other functions are unbounded.
     friend Part add(const Part& a, const Part& b) { return sum(a.size, b.size, a.lost + b.lost); }
     friend Part subtract(const Part& a, const Part& b) {
         return sum(a.size, negative(b.size), a.lost + b.lost);
@@ -137,7 +139,7 @@ private:
         if (node.calls(Function::shifted)) {
             part.size = parts_[node.operands[0]].size;
         } else if (differentiates(node.function)) {
-            part.size = {0, 0, false};  // Terms of operators are left out.
+            part.size = {0, 0, false};  // The terms that operators give are left out.
         } else if (node.operand_count > 0) {
             const auto operand = [&](std::size_t n) -> const Part& {
                 return parts_[node.operands[n < node.operand_count ? n : 0]];
@@ -145,7 +147,7 @@ private:
             part = call_by_name(node.function, operand(0), operand(1), operand(2));
         }
         inherit(node, part);
-        // If the size is unknown, the loss is unknown, too.
+        // If the size of the part is unknown, its loss is unknown, too.
         if (!std::isfinite(part.lost) || !std::isfinite(part.size.most)) part.lost = 0;
         if (!std::isfinite(part.size.most)) return part;
         if (calls(node, is_sum)) swallow(node, part);
@@ -161,7 +163,8 @@ private:
         return part;
     }
 
-    /// If one operand of a sum is too small in all cells to change the other, adds it to the loss.
+    /// If one operand of a sum is too small to change the other operand in any cell, adds it to the
+    /// loss.
     void swallow(const Node& node, Part& part) const {
         for (const std::size_t small : {0, 1}) {
             const NodeId id = node.operands[small], other = node.operands[1 - small];
@@ -181,7 +184,7 @@ private:
         return is_share ? Magnitude{0, 1, true} : Magnitude{};
     }
 
-    /// Takes `lost_by` from the operand that loses most.
+    /// Takes `lost_by` from the operand that has lost most.
     void inherit(const Node& node, Part& part) const {
         double most = 0;
         const Part* from = nullptr;
@@ -189,8 +192,8 @@ private:
             const Part& of = parts_[operand];
             if (of.too_large && !part.too_large) part.too_large = of.too_large;
             if (!of.lost_by || !(of.lost > 0)) continue;
-            // The loss relative to the operand's size, because the operand may be multiplied by
-            // other factors.
+            // The loss is compared relative to the operand's size, because other factors may
+            // multiply the operand.
             const double share = of.size.most > 0 ? of.lost / of.size.most : 0;
             if (from != nullptr && share <= most) continue;
             most = share;
@@ -206,7 +209,7 @@ private:
     IdVector<NodeId, Part> parts_;
 };
 
-/// A formula that is searched.
+/// A formula that is searched, and the place of the formula.
 struct Root {
     ItemId species;
     std::optional<Side> side;

@@ -1,6 +1,6 @@
-// Bounds of the values of parts of rates, computed from bounds of the values that the rates read.
-// The bounds show which parts are too small or too large for single precision, and by how much this
-// changes a formula.
+// Bounds of the values of parts of rates. They are computed from bounds of the values that the
+// rates read. They show which parts are too small or too large for single precision, and how much a
+// formula changes because of these parts.
 #pragma once
 
 #include "core/side.h"
@@ -26,29 +26,30 @@ struct Magnitude {
     }
 };
 
-/// A part of a formula that single precision loses: its value is outside the range, although its
-/// operands are inside, or it is too small to be added.
+/// A part of a formula that single precision loses: the part's value is out of range although its
+/// operands are in range, or the part is too small to be added.
 struct LostPart {
     enum class Cause {
-        too_small,  ///< The part counts as 0.
-        too_large,  ///< The part may be infinite in some cell.
-        swallowed,  ///< Less than half of the last digit of the number to which the part is added.
+        too_small,  ///< The part is so small that it counts as 0.
+        too_large,  ///< The part is so large that it may be infinite in some cell.
+        /// The part is less than half a unit in the last place of the number to which it is added.
+        swallowed,
     };
     ItemId species;            ///< The species of the rate, or of the rule at a side.
-    std::optional<Side> side;  ///< The side of the rule. Empty for a rate.
+    std::optional<Side> side;  ///< The side of the rule. nullopt for a rate.
     SideKind kind{};           ///< The kind of the rule.
-    Span span;                 ///< Where the part is written.
-    Span other;                ///< Where the number that swallows it is written.
+    Span span;                 ///< Where the part is in the script.
+    Span other;                ///< Where the number that swallows the part is in the script.
     Formula part;
     double value = 0;  ///< A bound of the part's magnitude.
-    double lost = 0;   ///< The formula's loss by all parts that count as 0.
+    double lost = 0;   ///< A bound of how much the formula loses by all parts that count as 0.
     double whole = 0;  ///< A bound of the formula without the terms of operators.
     Cause cause = Cause::too_small;
 };
 
 /// Searches the rates, and the rules of species at sides and borders. `magnitude_of` gives the
-/// magnitudes of the items that they read. Returns for each formula the part by which it loses
-/// most, and one part that may be too large.
+/// magnitudes of the items that they read. For each formula, returns the part by which the formula
+/// loses most, and one part that may be too large.
 std::vector<LostPart> find_lost_parts(const Program& program, std::uint32_t stage,
                                       const std::function<Magnitude(ItemId)>& magnitude_of);
 

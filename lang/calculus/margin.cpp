@@ -1,4 +1,4 @@
-// Margins of comparisons and logic, by their names in functions.def.
+// Defines the margins of comparisons and of logic, by their names in functions.def.
 #include "lang/calculus/margin.h"
 
 #include "lang/program/terms.h"

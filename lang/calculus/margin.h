@@ -5,10 +5,10 @@
 
 namespace cascade {
 
-/// A formula that is above 0 where the condition holds and passes through 0 where the condition
-/// begins to hold: a − b for a > b, the smaller of two margins for `and`, the larger for `or`. For
-/// all other conditions it is 1 where they hold and −1 elsewhere. So solvers can find the moment at
-/// which a condition changes as a root of this formula.
+/// A formula that is above 0 where the condition holds and that passes through 0 where the
+/// condition begins to hold. It is a − b for a > b, the smaller of the two margins for `and`, and
+/// the larger margin for `or`. For any other condition it is 1 where the condition holds and −1
+/// elsewhere. Solvers use this formula to find the moment at which a condition changes as a root.
 Formula margin_of(const Formula& condition);
 
 }  // namespace cascade

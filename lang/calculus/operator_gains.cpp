@@ -26,8 +26,8 @@ bool OperatorGains::has_axis(std::size_t axis) const {
 Term OperatorGains::metric(MetricPlane plane) { return {&algebra_, algebra_.leaf(plane)}; }
 
 /// The gain is 2 / h, because a difference across a face adds the magnitudes in both cells. On a
-/// surface it is multiplied by entries of Ṽ⁻¹, two for the second direction, which has parts along
-/// columns and along rows.
+/// surface the gain is multiplied by entries of Ṽ⁻¹. The second direction has two entries, because
+/// it has parts along columns and along rows.
 Term OperatorGains::of_gradient(std::size_t axis) {
     // On a model, a gradient and a divergence together make a Laplacian, which has parts along
     // three axes.
@@ -48,8 +48,8 @@ Term OperatorGains::of_derivative(std::size_t axis) {
     return zero_.number(largest(Difference::central) / 2) * of_gradient(axis);
 }
 
-/// For lap, each neighbour counts 1, and the cell itself counts as much as all neighbours together.
-/// For a tensor, the gain follows from the tensor's trace (SlopeRules::times_tensor).
+/// For lap, each neighbour counts 1, and the cell itself counts as many as all its neighbours. For
+/// a tensor, the gain follows from the tensor's trace (SlopeRules::times_tensor).
 std::optional<Term> OperatorGains::of_diffusion(const Node& node) {
     const double along_axis = 4 / (grid_.spacing * grid_.spacing);
     const auto applied = difference_of(node.function);

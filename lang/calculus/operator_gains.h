@@ -1,5 +1,5 @@
-// Gains: the factors by which operators on planes, surfaces and models multiply waves. Also the
-// components of vectors (internal to derivative.cpp).
+// Gains, which are the factors by which operators on planes, surfaces and models multiply waves.
+// Also the components of vectors. Internal to derivative.cpp.
 #pragma once
 
 #include "lang/calculus/algebra.h"
@@ -26,13 +26,13 @@ public:
     /// The largest factor by which an aggregate or an operator that is not diffusion multiplies a
     /// wave; nullopt for other functions.
     std::optional<Term> of_other(const Node& node);
-    /// The gain of the derivative along an axis. of_gradient() is for the difference between
-    /// adjacent cells, from which fluxes through faces are computed, of_derivative() for the
-    /// central difference.
+    /// The gain of the derivative along an axis. of_gradient() is the gain of the difference
+    /// between adjacent cells, from which fluxes through faces are computed. of_derivative() is the
+    /// gain of the central difference.
     Term of_gradient(std::size_t axis);
     Term of_derivative(std::size_t axis);
 
-    /// The components of a vector at the cell itself.
+    /// The components of a vector in the cell itself.
     const SparseVector& components(NodeId vector) { return vectors_.components(vector); }
     /// The central difference of a number along an axis; 0 if the grid does not have this axis.
     Term derivative(NodeId of, std::size_t axis);
@@ -45,7 +45,8 @@ private:
     const Grid& grid_;
     bool has_metric_;
     StencilKind stencil_;
-    std::optional<double> links_;  ///< On a model: the largest sum of a cell's weights.
+    /// On a model, the largest sum of the weights of one cell's links.
+    std::optional<double> links_;
     Term zero_;
     FieldVectors vectors_;
 };

@@ -1,6 +1,7 @@
-// Each side has a small system of linear equations. Each species has one unknown: its slope at the
-// face if its rule gives a slope, otherwise its change from the cell to the face. The equations are
-// solved by elimination before the run. The results are formulas.
+// Solves a small system of linear equations for each side, in which each species has one unknown.
+// If the species' rule gives a slope, the unknown is the slope at the face. Otherwise it is the
+// change of the species from the cell to the face. The equations are solved by elimination before
+// the run, and the results are formulas.
 #include "lang/calculus/side_values.h"
 
 #include "core/check.h"
@@ -39,7 +40,7 @@ public:
           zero_(algebra_.number(0)),
           values_(species_.size()) {}
 
-    /// The species on whose values at the face the value of `of` depends. `of` comes last.
+    /// The species whose values at the face determine the value of `of` there. `of` comes last.
     std::vector<SpeciesId> coupled(SpeciesId of) {
         std::vector<SpeciesId> found{of};
         for (std::size_t next = 0; next < found.size(); ++next) {
@@ -52,7 +53,7 @@ public:
         return found;
     }
 
-    /// The value of `of` at the face, or its slope there if its rule gives a slope.
+    /// The value of `of` at the face or, if the rule of `of` gives a slope, the slope there.
     Formula solve(SpeciesId of) {
         if (unknowns_in(of).empty()) return algebra_.formula(value(of));
         const std::vector<SpeciesId> unknown = coupled(of);
@@ -92,8 +93,8 @@ private:
     bool is_fixed(SpeciesId species) const { return setting(species).kind == SideKind::fixed; }
     NodeId cell(SpeciesId species) { return algebra_.leaf(species_[species]); }
 
-    /// The value or slope that a rule gives if values at the face are replaced by values in the
-    /// cell.
+    /// The value or slope that a species' rule gives if it reads values in the cell in place of
+    /// values at the face.
     NodeId value(SpeciesId species) {
         std::optional<NodeId>& known = values_[species];
         if (known) return *known;
@@ -102,14 +103,15 @@ private:
         if (rule.kind == SideKind::flux) {
             if (diffusion_.empty()) diffusion_ = diffusion_of(program_, stage_, side_);
             const auto factor = conductivity_at(system_, diffusion_, species, side_).factor;
-            // The rule has no effect on a species that no operator reads.
+            // If no operator reads the species, its rule has no effect.
             node = factor ? algebra_.quotient(node, rates_.flattening.add(*factor)) : zero_;
         }
         known = node;
         return node;
     }
 
-    /// The species in the rule of `species` whose values differ between the cell and the face.
+    /// The species that the rule of `species` reads and whose values differ between the cell and
+    /// the face.
     std::vector<SpeciesId> unknowns_in(SpeciesId species) {
         std::vector<SpeciesId> found;
         const NodeId root = value(species);
@@ -122,7 +124,8 @@ private:
         return found;
     }
 
-    /// The derivative of a value with respect to a species. Functions without a rule contribute 0.
+    /// The derivative of a value with respect to a species. Functions without a rule for
+    /// derivatives contribute 0.
     NodeId slope(NodeId root, SpeciesId by) {
         const IdVector<NodeId, bool> needed = needed_by(algebra_, {&root, 1});
         IdVector<NodeId, NodeId> slopes(needed.size(), zero_);
@@ -141,9 +144,8 @@ private:
         return slopes[root];
     }
 
-    /// The change of a species from the cell to the face, divided by the species' unknown. If the
-    /// unknown is a slope, this is half a cell's width. If the unknown is the change itself, this
-    /// is 1.
+    /// The change of a species from the cell to the face, divided by the species' unknown. This is
+    /// half a cell's width if the unknown is a slope, and 1 if the unknown is the change itself.
     NodeId change_by(SpeciesId species) {
         if (is_fixed(species)) return algebra_.number(1);
         const NodeId half = algebra_.number(program_.domain.grid.spacing / 2);

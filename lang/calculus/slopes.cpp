@@ -38,8 +38,8 @@ Slope SlopeRules::scaled(const Slope& slope, Term factor) {
     return result;
 }
 
-/// The slope after an operator of diffusion, or after half of such an operator: a gradient or a
-/// divergence.
+/// The slope after an operator of diffusion has been applied, or half of such an operator: a
+/// gradient or a divergence.
 Slope SlopeRules::through_diffusion(const Slope& slope, Term gain) {
     Slope result = zero();
     result.jumps = slope.jumps;
@@ -55,8 +55,8 @@ Slope SlopeRules::through_other(const Slope& slope, Term gain) {
     return {zero_, far, {}, far, slope.jumps};
 }
 
-/// The part of a product's slope that comes from one factor, if factors are averaged at faces. In
-/// such a product, diffusion cannot be separated from other changes.
+/// The part of a product's slope that comes from one factor, if the product's factors are averaged
+/// at faces. In such a product, diffusion cannot be separated from other changes.
 Slope SlopeRules::as_other(const Slope& slope, Term factor) {
     const Term far = slope.far * abs(factor);
     return {slope.own * factor, far, {}, far, slope.jumps};
@@ -160,8 +160,8 @@ Slope SlopeRules::of_advection(const Node& node, const IdVector<NodeId, Slopes>&
     return slope;
 }
 
-/// A value that is averaged at faces contributes half its gain as a wave: for the value c of the
-/// cell and the values E and W of its neighbours, (c + E)/2 − (c + W)/2 = (E − W)/2.
+/// A value that is averaged at faces contributes half its gain to `other`, as a wave. With the
+/// value c of the cell and the values E and W of its neighbours, (c + E)/2 − (c + W)/2 = (E − W)/2.
 Slope SlopeRules::of_divergence(const Slopes& flux) {
     Slope slope = zero();
     Node vector;
@@ -186,8 +186,8 @@ Slope SlopeRules::of_divergence(const Slopes& flux) {
             slope.diffusion[k] = slope.diffusion[k] + gain * along.diffusion[k];
         }
     }
-    // On a model, a flux is not made of components. There the change of the cell's own value is
-    // part of `far`, like the changes of the neighbours' values.
+    // On a model, a flux has no components. There, the change of the cell's own value is part of
+    // `far`, like the changes of the neighbours' values.
     if (changes && !gains_.is_on_model()) slope.own = div(term(algebra_.add(vector)));
     return slope;
 }
@@ -262,8 +262,8 @@ std::optional<Slopes> SlopeRules::of_vector(const Node& node,
     return vector_by(OfVectors{*this, before}, algebra_, node);
 }
 
-/// The waves of a gradient decay at most as fast as if the larger of a1² and a2² applied in all
-/// directions (surface/cell_frames.h).
+/// The waves of a gradient decay at most as fast as if both a1² and a2² were the larger of the two
+/// (surface/cell_frames.h).
 Slopes SlopeRules::times_model_tensor(const Node& tensor, const Slopes& flux) {
     const Term a1 = term(tensor.operands[0]), a2 = term(tensor.operands[1]);
     const Term most = max(square(a1), square(a2));

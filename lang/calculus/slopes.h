@@ -1,11 +1,11 @@
-// How much the subexpressions of a formula change if a species changes: in the cell itself, or in
-// cells that operators read (internal to derivative.cpp).
+// How much the subexpressions of a formula change if a species changes, either in the cell itself
+// or in cells that operators read (internal to derivative.cpp).
 //
-// Coefficients of operators count as if they had the same value in all cells around the cell. An
-// operator then multiplies each wave by a factor. For operators of diffusion the factor is −gain ·
-// x, with x from 0 (long waves) to 1 (the shortest wave), so no wave grows. Nested operators of
-// diffusion give a polynomial of x. The coefficients of the polynomial are stored one by one, so
-// that decay and possible growth remain separate.
+// Coefficients of operators count as if they were the same in all cells around the cell. With such
+// coefficients, an operator multiplies each wave by a factor. For operators of diffusion the factor
+// is −gain · x, with x from 0 (long waves) to 1 (the shortest wave), so no wave grows. Nested
+// operators of diffusion give a polynomial of x. The coefficients of the polynomial are stored one
+// by one, so that decay and possible growth remain separate.
 #pragma once
 
 #include "lang/calculus/operator_gains.h"
@@ -17,12 +17,12 @@
 
 namespace cascade {
 
-/// The derivative of a number, or of one component of a vector at the faces, with respect to a
-/// species.
+/// The derivative, with respect to a species, of a number or of one component of a vector at faces.
 struct Slope {
     Term own;  ///< The derivative with respect to the cell's own value, without operators.
     /// The sum of the magnitudes of the derivatives with respect to the values of all cells that
-    /// operators and aggregates read. No wave is multiplied by a larger factor. Never below 0.
+    /// operators and aggregates read. No wave is multiplied by a factor larger than this sum. Never
+    /// below 0.
     Term far;
     /// The part that is diffusion. For a number, diffusion[k] is the coefficient of (−x)^(k+1). For
     /// a component of a vector, diffusion[k] is the factor of the gradient of the term (−x)^k, so
@@ -30,11 +30,12 @@ struct Slope {
     std::vector<Term> diffusion;
     /// The magnitude of all other parts: travelling waves, mixed derivatives, aggregates.
     Term other;
-    /// Whether the value jumps where the species passes a threshold. The derivatives do not contain
-    /// the jump.
+    /// Whether the value jumps where the species passes a threshold. The derivatives above do not
+    /// include the jump.
     bool jumps = false;
 };
-/// The slope of a number is the first entry. A vector has an entry for each axis.
+/// The slopes of a number or a vector. A number uses only the first element. A vector uses one
+/// element for each axis.
 using Slopes = std::array<Slope, 3>;
 
 class SlopeRules {
@@ -43,7 +44,7 @@ public:
     SlopeRules(Algebra& algebra, const Program& program, const ModelFacts* model);
 
     /// The slopes of node `id` with respect to `species`, given the slopes of all earlier nodes.
-    /// Empty if the node depends on the species and there is no rule for this node.
+    /// nullopt if the node depends on the species and there is no rule for this node.
     std::optional<Slopes> slopes_of(NodeId id, ItemId species,
                                     const IdVector<NodeId, Slopes>& before);
 

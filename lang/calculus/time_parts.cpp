@@ -1,4 +1,4 @@
-// Marks nodes from the leaves upwards, then takes the largest subexpressions that depend only on
+// Marks nodes from the leaves upwards. Then takes the largest subexpressions that depend only on
 // time and positions.
 #include "lang/calculus/time_parts.h"
 
@@ -12,18 +12,21 @@ namespace {
 
 /// Facts about a subexpression of a formula.
 struct TimeFacts {
-    bool is_of_time = false;    ///< It reads only constants and `t`.
-    bool is_of_places = false;  ///< It reads only constants, `t` and positions.
-    bool reads_time = false;    ///< It reads `t`.
-    bool reads_places = false;  ///< It reads positions.
-    bool is_separable = true;   ///< It consists of sums and products of parts that read either `t`
-                                ///< or positions, not both.
+    bool is_of_time = false;  ///< Whether the subexpression reads only constants and `t`.
+    /// Whether the subexpression reads only constants, `t` and positions.
+    bool is_of_places = false;
+    bool reads_time = false;    ///< Whether the subexpression reads `t`.
+    bool reads_places = false;  ///< Whether the subexpression reads positions.
+    /// Whether the subexpression consists of sums and products of parts that read either `t` or
+    /// positions but not both.
+    bool is_separable = true;
 
     bool reads_both() const { return reads_time && reads_places; }
 };
 
-/// Whether the node is a sum, product or quotient that is separable if its operands are. At most
-/// one factor of a product may read both `t` and positions, and a divisor may not.
+/// Whether the node is a sum, product or quotient that is separable if its operands are. In a
+/// product, at most one factor may read both `t` and positions. In a quotient, the divisor may not
+/// read both.
 bool keeps_apart(const Node& node, const IdVector<NodeId, TimeFacts>& before) {
     const auto reads_both = [&](std::size_t operand) {
         return before[node.reads()[operand]].reads_both();

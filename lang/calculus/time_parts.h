@@ -10,7 +10,7 @@
 namespace cascade {
 
 struct TimeParts {
-    /// The largest parts that read `t` and otherwise only constants. They are the same in all
+    /// The largest parts that read `t` and nothing else but constants. They are the same in all
     /// cells. In u' = exp(-(t - 50)^2) * sx - u the only such part is the exponential.
     std::vector<Formula> of_time;
     /// The largest parts that read both `t` and positions, such as exp(-(x - 5 * t)^2), a pulse
@@ -19,7 +19,8 @@ struct TimeParts {
     std::vector<Formula> of_places;
 };
 
-/// Searches the rates of a stage, its sides and borders, and the sides of definitions.
+/// Searches the rates of a stage, and the rules at its sides and borders, for species and for
+/// definitions.
 TimeParts parts_of_time(const Program& program, std::uint32_t stage);
 
 }  // namespace cascade

@@ -31,8 +31,8 @@ bool draws_random_numbers(const Program& program) {
 void warn_of_idle_seed(const ast::Script& script, const Program& program,
                        Diagnostics& diagnostics) {
     const ast::Statement* const seed = checking::find_option(script, "seed");
-    // On a model, the seed has an effect even without draws, because the cells are placed at
-    // random.
+    // On a model, the seed has an effect even if nothing draws random numbers, because the cells
+    // are placed at random.
     if (seed == nullptr || program.stages.empty() || program.domain.model ||
         draws_random_numbers(program)) {
         return;

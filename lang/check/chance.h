@@ -7,7 +7,7 @@
 
 namespace cascade {
 
-/// Warns if --seed is given although neither a stage nor the domain draws random numbers.
+/// Warns if --seed is given although neither the stages nor the domain draw random numbers.
 void warn_of_idle_seed(const ast::Script& script, const Program& program, Diagnostics& diagnostics);
 
 /// Warns if random numbers are drawn at each step in a stage that chooses the lengths of its steps.

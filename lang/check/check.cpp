@@ -1,4 +1,5 @@
-// The checker. Checks systems first, then stages in order, then the domain and the picture.
+// The checker. Checks first the systems, then the stages in order, and then the domain and the
+// picture.
 #include "lang/check/check.h"
 
 #include "lang/program/models.h"
@@ -27,8 +28,8 @@ namespace {
 
 using checking::Workspace;
 
-/// Reports library systems that have no meaning in this domain. Even a correct system may have no
-/// meaning in a domain: for example, a curl is a number in the plane but a vector in volumes.
+/// Reports library systems that have no meaning in this domain. A system may be correct and still
+/// have no meaning: for example, a curl is a number in the plane but a vector in volumes.
 void report_unfit(Workspace& work, const ast::Script& script, const ast::Block& system) {
     const auto report = [&](const ast::Word& base) {
         if (base.text != system.name.text) return;
@@ -42,9 +43,9 @@ void report_unfit(Workspace& work, const ast::Script& script, const ast::Block& 
     }
 }
 
-/// Checks the script's own systems and the library systems that the script names. `library` owns
-/// the parsed scripts of the library, which must outlive the workspace. Blocks of cells are checked
-/// after systems of fields, because they read stages of fields by name.
+/// Checks the script's own systems and the library systems that the script names. `library`
+/// contains the parsed scripts of the library, and must outlive the workspace. Blocks of cells are
+/// checked after systems of fields, because they read stages of fields by name.
 void check_systems(Workspace& work, const ast::Script& script,
                    const std::vector<LibraryScript>& library) {
     std::vector<checking::SystemBlock> blocks;
@@ -60,8 +61,8 @@ void check_systems(Workspace& work, const ast::Script& script,
             return each.from.block->name.text == name && each.from.block->is_cells;
         });
     });
-    std::vector<SystemId> numbers(systems.size());  // For each entry of `systems`, its id in the
-                                                    // program.
+    // For each element of `systems`, its id in the program.
+    std::vector<SystemId> numbers(systems.size());
     for (const bool is_of_cells : {false, true}) {
         for (std::size_t k = 0; k < systems.size(); ++k) {
             const checking::DerivedSystem& each = systems[k];
@@ -129,12 +130,12 @@ std::optional<Program> check(const ast::Script& script, Sources& sources, Diagno
         work.on_surface = measures_on_surface(program.domain);
         work.lengths_grow = checking::lengths_may_grow(program, script);
         check_systems(work, script, library);
-        checking::functions_of(work, script);  // Also checks functions that are never called.
+        checking::functions_of(work, script);  // This also checks functions that are never called.
         checking::check_names_of_constants(work, script);
         checking::check_stages(work, script);
         checking::check_stage_sides(work, script);
         checking::check_picture(work, script, checking::check_shapes(work, script, sources));
-        // Warnings about unread names would be wrong after errors, because expressions that read a
+        // After errors, warnings about unread names would be wrong, because expressions that read a
         // name may be missing from the program.
         if (!own.has_errors() && !diagnostics.has_errors()) {
             check_dimensions(script, sources, program, own);
@@ -165,8 +166,9 @@ std::optional<Formula> check_view(const ast::Script& script, ast::Expression exp
     Workspace work = workspace_of(program, diagnostics);
     work.units = units_of(script);
     work.measured = MeasuredSpans(script);
-    // The functions of cells are read only if there are cells. Reading them takes a search through
-    // all sources, and a session has a source for each of its brush strokes, which may be many.
+    // The functions of cells are read only if there are cells, because reading them needs a search
+    // through all sources. A session has a source for each brush stroke, so there may be many
+    // sources.
     const bool has_cells = std::ranges::any_of(program.systems, [](const System& system) {
         return system.cells.has_value();
     });

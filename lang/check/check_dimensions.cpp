@@ -1,4 +1,5 @@
-// Infers the dimension of each value of a stage, and compares the two sides of each formula.
+// Infers the dimension of each value in a stage, and compares the dimensions of the two sides of
+// each formula.
 #include "lang/check/check_dimensions.h"
 
 #include "lang/check/expressions/measures.h"
@@ -22,7 +23,7 @@ using checking::words_of_dimension;
 const Dimension length_dimension = Dimension::of(BaseQuantity::length);
 const Dimension time_dimension = Dimension::of(BaseQuantity::time);
 
-/// The measures of the values of one stage, or of a system without a stage.
+/// The measures of the values of one stage, or of one system that no stage uses.
 struct Measures {
     IdVector<ItemId, Measure> items;
     IdVector<DefinitionId, Measure> definitions;
@@ -56,8 +57,8 @@ public:
             IdVector<ItemId, Formula> starts;
             for (const Quantity& quantity : system.quantities) starts.push_back(quantity.start);
             starts.resize(system.item_count());
-            // Without a stage, items have no order, so there are two passes. In the second, the
-            // measures of all names are known.
+            // Without a stage, items have no order, so each item is visited twice. On the second
+            // visit, the measures of all names are known.
             std::vector<ItemId> order;
             for (int pass = 0; pass < 2; ++pass) {
                 for (const ItemId item : starts.ids()) order.push_back(item);
@@ -94,7 +95,7 @@ private:
         for (const ItemId item : order) {
             if (items[item].nodes.empty()) continue;
             own.items[item] = measure_of(items[item], leaves(own, Measure::Kind::plain), found_);
-            // The unit of a plain number may have been left out.
+            // If the value is a plain number, the author may have left out its unit.
             if (!own.items[item].is_known()) own.items[item] = {};
         }
         for (const Definition& definition : system.definitions) {
@@ -107,7 +108,8 @@ private:
         return measure_of(formula, leaves(own, Measure::Kind::any), found_);
     }
 
-    /// Compares two measures that must be equal. `first` and `second` are their source locations.
+    /// Compares two measures that must be equal. `first` and `second` are the source locations of
+    /// the parts that have them.
     void compare(const Measure& expected, Span first, const Measure& other, Span second,
                  std::string what = {}) {
         if (!expected.is_known() || !other.is_known()) return;
@@ -116,7 +118,7 @@ private:
             {second, first, second, expected.dimension, other.dimension, std::move(what)});
     }
 
-    /// Compares the values of a stage with those of its system.
+    /// Compares the measures of a stage's values with the measures of the system's default values.
     void check_against_system(std::uint32_t index) {
         const Stage& stage = program_.stages[index];
         const System& system = program_.systems[stage.system];

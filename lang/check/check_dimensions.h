@@ -11,25 +11,26 @@
 
 namespace cascade {
 
-/// The units of a program's values. A unit is empty where the script gives none.
+/// The units of a program's values. The unit of a value is empty if the script gives none.
 struct ProgramUnits {
     ScriptUnits units;
     /// For each stage, the unit of each item.
     std::vector<IdVector<ItemId, std::optional<Dimension>>> items;
 
-    /// The unit of lengths or times, empty if the script gives none.
+    /// The unit of a quantity such as length or time. Empty if the script gives no unit for the
+    /// quantity.
     std::string name_of(BaseQuantity quantity) const {
         return units.knows(quantity) ? units.name_of(Dimension::of(quantity)) : "";
     }
-    /// The unit of an item of a stage; empty if it has none.
+    /// The unit of an item of a stage; empty if the item has none.
     std::string name_of(std::uint32_t stage, ItemId item) const {
         const auto& dimension = items[stage][item];
         return dimension ? units.name_of(*dimension) : "";
     }
 };
 
-/// Reports formulas in which two units contradict each other. The program must be without errors,
-/// and its lengths must not grow yet (let_lengths_grow()).
+/// Reports formulas in which two units contradict each other. The program must be free of errors.
+/// Must be called before let_lengths_grow().
 void check_dimensions(const ast::Script& script, const Sources& sources, const Program& program,
                       Diagnostics& diagnostics);
 

@@ -1,4 +1,4 @@
-// Finds null vectors of a matrix of dimensions in rational numbers.
+// Finds the null vectors of a matrix of dimensions, by arithmetic with rational numbers.
 #include "lang/check/dimensionless_groups.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace cascade {
 
 namespace {
 
-/// A rational number in lowest terms, whose denominator is above 0.
+/// A rational number in lowest terms. The denominator is above 0.
 struct Ratio {
     std::int64_t above = 0, below = 1;
 
@@ -51,7 +51,7 @@ public:
         std::vector<DimensionlessGroup> groups;
         for (std::size_t column = 0; column < variables_.size(); ++column) {
             if (std::ranges::find(pivots_, column) != pivots_.end()) continue;
-            // The least power of this variable for which all powers are whole.
+            // The smallest power of this variable that makes the powers of all variables integers.
             std::int64_t power = 1;
             for (std::size_t row = 0; row < pivots_.size(); ++row) {
                 power = std::lcm(power, rows_[row][column].below);

@@ -13,7 +13,8 @@ PictureShape picture_shape(const ast::Script& script, Sources& sources) {
     PictureShape shape;
     std::string_view name = usual_shape;
     Program program;
-    Diagnostics unspoken;  // Not printed, because errors were reported when the script was loaded.
+    // These are not printed, because the errors were reported when the script was loaded.
+    Diagnostics unspoken;
     checking::Workspace work{program, unspoken, {}, {}, {}, {}, {}, 0};
     if (const auto detail = picture_expression(script, "detail")) {
         shape.detail =

@@ -1,4 +1,4 @@
-// Marks the stages that formulas and the picture read, and warns of all others.
+// Marks the stages that formulas and the picture read, and warns of all other stages.
 #include "lang/check/unread_stages.h"
 #include "lang/program/cell_items.h"
 #include "lang/program/stage_kinds.h"

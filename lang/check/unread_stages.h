@@ -12,8 +12,9 @@ namespace cascade {
 
 /// A formula of the picture.
 struct PictureView {
-    std::uint32_t stage = 0;  ///< The stage to which names in the formula refer. This stage counts
-                              ///< as read.
+    /// The stage to which names in the formula refer. The picture reads this stage, even if the
+    /// formula reads nothing else.
+    std::uint32_t stage = 0;
     std::optional<Formula> formula;
 };
 

@@ -25,7 +25,7 @@ namespace {
 
 constexpr int a_negation = 3, a_comparison = 4, a_sign = 7, a_power = 8, an_atom = 9;
 
-/// An operand to write. It gets brackets if it binds more loosely than `least`.
+/// An operand to write. It is written in brackets if it binds more loosely than `least`.
 struct Operand {
     ast::ExprId id = 0;
     int least = 0;
@@ -67,10 +67,10 @@ private:
             stack_.push_back(std::move(*piece));
         }
     }
-    /// Pushes the pieces of an operator. They get brackets if `own` binds more loosely than
+    /// Pushes the pieces of an operator, and brackets around them if `own` binds more loosely than
     /// `least`.
     void push_operator(std::vector<Piece> pieces, int own, int least) {
-        // The piece that is pushed last is written first.
+        // Pushed in reverse order, because the last piece is written first.
         if (own < least) stack_.emplace_back(both(")", "\\right)"));
         push(std::move(pieces));
         if (own < least) stack_.emplace_back(both("(", "\\left("));
@@ -146,7 +146,7 @@ private:
             return push_operator({both("not ", "\\lnot "), Operand{node.operand, a_comparison}},
                                  a_negation, least);
         }
-        // Two signs in a row would be read as one.
+        // Brackets separate two signs, which would otherwise be read as one sign.
         push_operator({both("−", "-"), Operand{node.operand, a_power}}, a_sign, least);
     }
 
@@ -164,14 +164,14 @@ private:
                        Operand{node.right, right}},
                       own, least);
     }
-    /// The precedence that a factor needs. Without brackets, a sum over an index would seem to
-    /// include the factors after the sum.
+    /// The precedence that a factor needs. A sum over an index needs brackets, because it would
+    /// seem to include the factors after it.
     int factor(ast::ExprId id, int least) const {
         const auto* const over = as<ast::Over>(id);
         return over && (over->function.text == "sum" || over->function.text == "product") ? a_sign
                                                                                           : least;
     }
-    /// Writes the factors side by side, with a dot between two numbers.
+    /// Writes the factors of a product side by side, with a dot between two numbers.
     void write_product(const ast::Binary& node, int least) {
         const auto* const left = as<ast::Binary>(node.left);
         const auto* const right = as<ast::Binary>(node.right);
@@ -179,7 +179,7 @@ private:
         const bool right_is_product = right && right->op == Function::multiply;
         const ast::ExprId first = right_is_power || right_is_product ? right->left : node.right;
         const bool meets_number = as<ast::Number>(first) != nullptr;
-        // In Unicode, which has no fraction lines, `a / b c` would be read as a / (b c).
+        // Unicode has no fraction lines, so `a / b c` would be read as a / (b c).
         const bool left_is_quotient = !tex_ && left && left->op == Function::divide;
         push_operator({Operand{node.left, left_is_quotient ? a_sign : factor(node.left, a_product)},
                        meets_number ? both(" · ", " \\cdot ") : both(" ", " \\, "),
@@ -199,8 +199,8 @@ private:
                        Operand{node.right, factor(node.right, a_power)}},
                       a_product, least);
     }
-    /// A number as its author wrote it, or its value if the program computed it, such as in a
-    /// table's function. A computed number may have the source location of a different number.
+    /// A number as its author wrote it, or its value if the program computed it, as in a table's
+    /// function. A computed number may have the source location of a different number.
     std::string digits(Span span, double value) const {
         const std::string_view text = sources_.text(span);
         double written = value;
@@ -290,7 +290,7 @@ private:
         if (function == "min" || function == "max") return "\\" + std::string(function);
         return "\\operatorname{" + tex_text(function) + "}";
     }
-    /// The operands with commas between them.
+    /// The operands, separated by commas.
     static std::vector<Piece> listed(std::span<const ast::ExprId> operands) {
         std::vector<Piece> pieces;
         for (const ast::ExprId id : operands) {
@@ -347,7 +347,7 @@ private:
     void write_over(const ast::Over& node, int least) {
         const std::string_view function = node.function.text;
         const bool of_domain = node.index.text == "domain";
-        // Writes the function's name with a text below the name, and the operand in brackets.
+        // Adds the text below the function's name, and then `after`.
         const auto with_under = [&](std::vector<Piece> pieces, std::vector<Piece> after) {
             for (Piece& piece : under(node)) pieces.push_back(std::move(piece));
             for (Piece& piece : after) pieces.push_back(std::move(piece));
@@ -369,7 +369,7 @@ private:
                         {both("(", "\\left("), Operand{node.operand, anything},
                          both(")", "\\right)")}));
     }
-    /// The text below an aggregate: the domain, neighbours or an index.
+    /// The text below an aggregate's symbol: the domain, the kind of neighbours, or an index.
     std::vector<Piece> under(const ast::Over& node) const {
         const std::string over(node.index.text);
         if (over == "domain") return {both("_Ω", "_{\\Omega}")};

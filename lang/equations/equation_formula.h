@@ -1,4 +1,4 @@
-// Typesets one expression (internal to printing equations).
+// Typesets an expression (internal to printing equations).
 #pragma once
 
 #include "core/source.h"
@@ -9,7 +9,7 @@
 
 namespace cascade {
 
-/// The precedences of the grammar: 1 `or`, 2 `and`, 3 `not`, 4 comparisons, 5 sums, 6 products, 7
+/// Precedences in the grammar: 1 `or`, 2 `and`, 3 `not`, 4 comparisons, 5 sums, 6 products, 7
 /// signs, 8 powers, 9 names and brackets.
 inline constexpr int anything = 0, a_sum = 5, a_product = 6;
 

@@ -1,5 +1,5 @@
-// Breaks sums between their top-level terms, and fills lines up to an estimated width. Breaks the
-// numerator if the formula is a long fraction.
+// Breaks sums between their top-level terms, and fills lines up to a width that is estimated. If
+// the formula is a long fraction, breaks its numerator.
 #include "lang/equations/equation_lines.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ std::string_view command_at(std::string_view formula, std::size_t at) {
     return formula.substr(at, std::max(end, at + 2) - at);
 }
 
-/// The change of the nesting depth of brackets, groups or environments after a command: 1, 0 or −1.
+/// By how much a command changes the nesting depth of brackets, groups or environments: 1, 0 or −1.
 int deeper_after(std::string_view command) {
     if (command == "\\left" || command == "\\begin" || command == "\\lfloor" ||
         command == "\\lceil") {
@@ -31,7 +31,7 @@ int deeper_after(std::string_view command) {
     return closes ? -1 : 0;
 }
 
-/// The terms of a sum. Each but the first begins with its sign.
+/// The terms of a sum. Each term except the first begins with its sign.
 std::vector<std::string_view> terms_of(std::string_view formula) {
     std::vector<std::string_view> terms;
     std::size_t begin = 0;
@@ -56,7 +56,7 @@ std::vector<std::string_view> terms_of(std::string_view formula) {
     return terms;
 }
 
-/// The end of the group that begins with the `{` at `at`.
+/// The position after the group that begins with the `{` at `at`.
 std::size_t end_of_group(std::string_view formula, std::size_t at) {
     int depth = 0;
     for (; at < formula.size(); ++at) {
@@ -75,7 +75,7 @@ struct Fraction {
     std::string_view above, below;
 };
 
-/// The fraction, if the whole formula is a fraction.
+/// The fraction, if the whole formula is a fraction; otherwise nullopt.
 std::optional<Fraction> whole_fraction(std::string_view formula) {
     constexpr std::string_view command = "\\frac";
     if (!formula.starts_with("\\frac{")) return std::nullopt;

@@ -7,7 +7,8 @@
 
 namespace cascade {
 
-/// The marks around the only operand of a call. In TeX, brackets grow with their contents.
+/// The marks around the operand of a call that has one operand. In TeX, brackets grow with their
+/// contents.
 struct Around {
     std::string_view function, unicode_open, unicode_close, tex_open, tex_close;
 };
@@ -26,7 +27,7 @@ inline constexpr Around arounds[] = {
     {"tanh", "tanh(", ")", "\\tanh\\left(", "\\right)"},
 };
 
-/// The mark between two operands.
+/// The mark between the two operands of a call.
 struct Infix {
     std::string_view function, unicode, tex;
 };
@@ -37,7 +38,7 @@ inline constexpr Infix infixes[] = {
     {"-", " − ", " - "},       {"dot", " · ", " \\cdot "},   {"cross", " × ", " \\times "},
 };
 
-/// The mark before the only operand of a call.
+/// The mark before the operand of a call that has one operand.
 struct Prefix {
     std::string_view function, unicode, tex;
 };
@@ -48,7 +49,7 @@ inline constexpr Prefix prefixes[] = {
     {"curl", "∇×", "\\nabla \\times "},
 };
 
-/// The row of the function with this spelling; null if there is none.
+/// The row for the function with this spelling; null if there is none.
 template <typename Row, std::size_t count>
 const Row* find(const Row (&rows)[count], std::string_view function) {
     const auto* const end = rows + count;

@@ -1,4 +1,4 @@
-// Splits a name into stem, digits and subscript. A name of a Greek letter becomes the letter.
+// Splits a name into a stem, digits and a subscript. The name of a Greek letter becomes the letter.
 #include "lang/equations/equation_symbols.h"
 
 #include "lang/vocabulary/greek_letters.h"
@@ -53,7 +53,7 @@ std::optional<std::string> replaced(const SmallLetter (&letters)[count], std::st
     return result;
 }
 
-/// The parts of a name: a stem, digits after it, and a subscript after the first `_`.
+/// The parts of a name: a stem, the digits after the stem, and a subscript after the first `_`.
 struct NameParts {
     std::string_view stem, below;
     bool has_bar = false;  ///< Whether the name contains a `_`.
@@ -72,7 +72,8 @@ NameParts parts_of(std::string_view name) {
 
 /// A word of letters and digits in TeX's math mode.
 std::string tex_word(std::string_view word) {
-    // TeX has commands of the same names. `epsilon` and `phi` are the forms common in papers.
+    // TeX has commands with the names of Greek letters. For `epsilon` and `phi`, the forms that are
+    // common in papers are used.
     if (!greek_letter(word).empty() || word == "Delta") {
         const std::string variant = word == "epsilon" || word == "phi" ? "var" : "";
         return "\\" + variant + std::string(word);
@@ -84,7 +85,7 @@ std::string tex_word(std::string_view word) {
     return text + "}";
 }
 
-/// A subscript in TeX: the words between `_`, separated by commas.
+/// The text of a subscript in TeX: the words between `_`, separated by commas.
 std::string tex_below(std::string_view words) {
     std::string text;
     while (true) {

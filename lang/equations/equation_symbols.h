@@ -12,14 +12,15 @@
 
 namespace cascade {
 
-/// The notation for the names of one system.
+/// How the names of one system are written.
 struct Symbols {
     Notation notation = Notation::unicode;
     /// Whether parts of names are written as subscripts. Unicode has few subscript letters, so in
-    /// Unicode this is true only if all names of the system can be written so.
+    /// Unicode this is true only if every name in the system can be written with subscripts.
     bool subscripts = true;
     std::set<std::string, std::less<>> vectors;  ///< Names that TeX writes in bold.
-    /// Names that the system, or a function, declares. Other names such as u_xx are derivatives.
+    /// Names that the system or a function declares. Any other name that looks like u_xx is a
+    /// derivative.
     std::set<std::string, std::less<>> declared;
 
     /// A name in this notation. Examples in Unicode and TeX: diff_u gives diffᵤ, \mathrm{diff}_{u};
@@ -33,10 +34,10 @@ struct Symbols {
     /// The texts before and after the operand of a derivative along axes such as xxy: ∂³ and
     /// /∂x²∂y, or \partial_{xxy} and nothing.
     std::pair<std::string, std::string> around_derivative(std::string_view axes) const;
-    /// A number in this notation: 1e-3 gives 10⁻³ or 10^{-3}. Numbers without an exponent are
+    /// A number in this notation: 1e-3 gives 10⁻³ or 10^{-3}. A number without an exponent is
     /// unchanged.
     std::string number(std::string_view digits) const;
-    /// The unit of a number with the space before it: ` µm²/s`, `\,\mathrm{\mu m^{2}/s}`.
+    /// The unit of a number, with a space before it: ` µm²/s`, `\,\mathrm{\mu m^{2}/s}`.
     std::string unit(std::string_view text) const;
 };
 
@@ -46,8 +47,8 @@ std::string tex_text(std::string_view text);
 /// Whether Unicode has a subscript for every character after the first `_` of the name.
 bool has_subscript(std::string_view name);
 
-/// The text in Unicode superscripts or subscripts. Empty if Unicode lacks such a form of a
-/// character.
+/// The text in Unicode superscripts or subscripts. nullopt if Unicode has no such form of a
+/// character in the text.
 std::optional<std::string> superscript(std::string_view text);
 std::optional<std::string> subscript(std::string_view text);
 

@@ -1,5 +1,5 @@
-// Sorts a system's statements by kind (rates, definitions, bounds, starting values, parameters),
-// and prints one kind after another.
+// Sorts the statements of a system by kind (rates, definitions, bounds, starting values,
+// parameters), and prints one kind after another.
 #include "lang/equations/equations.h"
 
 #include "lang/library/system_statements.h"
@@ -24,12 +24,12 @@ namespace cascade {
 
 namespace {
 
-// Finds the vectors among a system's definitions in the syntax tree alone, because scripts are
+// Finds which definitions of a system are vectors. Uses only the syntax tree, because scripts are
 // printed without a check (internal to printing equations).
 
 using Names = std::set<std::string, std::less<>>;
 
-/// Whether the expression is a vector. `names` are the names that are vectors.
+/// Whether the value of the expression is a vector. `names` are the names whose values are vectors.
 bool is_vector(const ast::Script& script, ast::Expression expression, const Names& names) {
     std::vector<bool> known(expression.root - expression.first + 1, false);
     const auto of = [&](ast::ExprId id) { return bool(known[id - expression.first]); };
@@ -58,8 +58,8 @@ bool is_vector(const ast::Script& script, ast::Expression expression, const Name
     return known.back();
 }
 
-/// The names of definitions, and of families of definitions, that are made of gradients and other
-/// vectors.
+/// The names of definitions, and of families of definitions, that are computed from gradients and
+/// other vectors.
 Names vector_names(const SystemStatements& system) {
     Names names;
     for (bool grows = true; grows;) {
@@ -76,7 +76,7 @@ Names vector_names(const SystemStatements& system) {
     return names;
 }
 
-/// One line of the result, such as ∂u/∂t = f.
+/// One line of the printed equations, such as ∂u/∂t = f.
 struct Line {
     std::string left, relation, right;
 };
@@ -113,7 +113,7 @@ public:
         const Line* const line = line_of(name);
         return line != nullptr ? mathml(*line) : "";
     }
-    /// The equation of one name as text.
+    /// The equation of one name as a line of text.
     std::string unicode(std::string_view name) const {
         const Line* const line = line_of(name);
         if (line == nullptr) return "";
@@ -126,7 +126,7 @@ private:
                reserved(statement.name.text) != Reserved::no;
     }
     bool is_tex() const { return symbols_.notation == Notation::tex; }
-    /// The rate, definition or value of a name. Null if the system has none.
+    /// The line with the rate, definition or value of a name. Null if the system has none.
     const Line* line_of(std::string_view name) const {
         const std::string symbol = symbols_.name(name);
         for (const auto* lines : {&rates_, &definitions_, &parameters_}) {
@@ -188,8 +188,8 @@ private:
         return is_tex() ? "\\partial_t " + symbol : "∂" + symbol + "/∂t";
     }
 
-    /// Handles statements that only cells have: divide, die, reach, restarted values. Returns false
-    /// for other statements.
+    /// Handles statements that only cells have: divide, die, reach, and values that restart after a
+    /// division. Returns false for other statements.
     bool take_of_cells(const SaidStatement& said, const std::string& symbol) {
         const ast::Statement& statement = *said.statement;
         if (statement.kind != ast::StatementKind::value) return false;
@@ -210,8 +210,8 @@ private:
         return !statement.after.empty() && is_start;
     }
 
-    /// Adds a term of a rate. All terms of a rate become one sum, in whatever order the statements
-    /// are written.
+    /// Adds a term to a rate. All terms of a rate become one sum, even if other statements are
+    /// between them.
     void add_rate(const SaidStatement& said, const std::string& symbol) {
         const ast::Statement& statement = *said.statement;
         const auto& value = statement.values.front();
@@ -228,13 +228,13 @@ private:
         sum += is_negative ? term.substr(sign.size()) : term;
     }
 
-    /// Adds the script's own functions and constants that the system reads, each once, in the order
-    /// of their first use.
+    /// Adds those functions and constants of the script that the system reads, each once, in the
+    /// order of their first use.
     void add_functions() {
         for (const SaidStatement& said : system_.all()) {
             for (const ast::Expression& value : said.statement->values) note_calls(said, value);
         }
-        for (std::size_t k = 0; k < called_.size(); ++k) {  // The list grows inside the loop.
+        for (std::size_t k = 0; k < called_.size(); ++k) {  // `called_` grows inside the loop.
             const auto [said, function] = called_[k];
             definitions_.push_back({call_of(*function), "=", typeset_value(said, function->body)});
             note_calls(said, function->body);
@@ -339,11 +339,12 @@ private:
     const SystemStatements& system_;
     std::string_view name_;
     Symbols symbols_;
-    std::unordered_map<std::string, std::size_t> rate_lines_;  ///< The index of each species' line.
+    /// For each species, the index of the line with its rate.
+    std::unordered_map<std::string, std::size_t> rate_lines_;
     std::vector<std::pair<SaidStatement, const ast::FunctionDefinition*>> called_;
     std::unordered_set<std::string_view> called_names_;
     std::vector<Line> rates_, indices_, definitions_, bounds_, parameters_, starts_;
-    std::vector<Line> events_, restarts_;  ///< Only for cells that crawl.
+    std::vector<Line> events_, restarts_;  ///< The lines that only crawling cells have.
 };
 
 }  // namespace

@@ -67,8 +67,9 @@ private:
     struct Row {
         Use use = Use::row;
         std::vector<std::string> parts;
-        std::string before;     ///< The numerator, the opening bracket, or the cases so far.
-        std::string line = {};  ///< The cells of the present case.
+        /// The numerator, the opening bracket, or the cases that are complete.
+        std::string before;
+        std::string line = {};  ///< The cells of the present case that are complete.
     };
 
     void open(Use use, std::string before = {}) { rows_.push_back({use, {}, std::move(before)}); }
@@ -113,7 +114,7 @@ private:
         const bool is_above = row.use == Use::superscript;
         add(element(is_above ? "msup" : is_under ? "munder" : "msub", base + one));
     }
-    /// Adds `part`, and completes the row if it takes only one sign.
+    /// Adds `part`. If the innermost row takes only one sign, completes the row.
     void add_and_close(std::string part) {
         add(std::move(part));
         if (is_single_) {
@@ -249,7 +250,8 @@ private:
     std::string_view tex_;
     std::size_t at_ = 0;
     std::vector<Row> rows_;
-    bool is_single_ = false;  ///< Whether the last row ends after one sign, unless a brace follows.
+    /// Whether the last row ends after one sign. A row that begins with a brace does not.
+    bool is_single_ = false;
 };
 
 }  // namespace

@@ -1,9 +1,9 @@
 // Sets the columns of words. Columns that an author has aligned (`=` and `+` of neighbouring
 // equations, comments after statements) stay aligned. All other extra blanks are removed.
 //
-// An aligned column is moved to the right if the words before it need more room. Otherwise the
-// distance between the column and these words stays as the author wrote it, so formatting the
-// result again changes nothing.
+// If the words before an aligned column need more room, the column is moved to the right. Otherwise
+// the distance between the column and the words before it stays as the author wrote it. So
+// formatting the result again changes nothing.
 #include "lang/format/format_lines.h"
 
 #include <algorithm>
@@ -13,11 +13,11 @@ namespace cascade {
 
 namespace {
 
-constexpr std::size_t before_comment = 2;   // The least number of blanks before a comment.
-constexpr std::size_t goes_on_by = 4;       // The indentation of a line that continues a statement,
-                                            // unless a column aligns the line.
-constexpr std::size_t furthest_start = 60;  // The largest indentation, so that lines stay visible
-                                            // if brackets are deeply nested.
+constexpr std::size_t before_comment = 2;  // The least number of blanks before a comment.
+// The indentation of a line that continues a statement, unless a column aligns the line.
+constexpr std::size_t goes_on_by = 4;
+// The largest indentation, so that lines stay visible if brackets are deeply nested.
+constexpr std::size_t furthest_start = 60;
 constexpr std::size_t no_column = std::numeric_limits<std::size_t>::max();
 
 enum class Alignment { free, relation, sum };
@@ -29,16 +29,17 @@ struct Column {
     };
     std::vector<Member> members;
     std::size_t source_column = 0;
-    bool was_stretched = false;  ///< Whether a word had more than one blank before it.
+    bool was_stretched = false;  ///< Whether any of the words has more than one blank before it.
 };
 
-/// Finds the position of a column from the words before it.
+/// Finds the position of a column from the words directly before it.
 class Place {
 public:
     explicit Place(bool respelled) : respelled_(respelled) {}
 
-    /// Adds a word of the column. `end_before` is where the word before it ends, `blanks` the
-    /// number of blanks between the two words in the source, and `gap` the required number.
+    /// Adds a line that has a word in the column. `end_before` is where the previous word of the
+    /// line ends, `blanks` the number of blanks between both words in the source, and `gap` the
+    /// least number required.
     void add(std::size_t end_before, std::size_t blanks, std::size_t gap) {
         kept_ = std::min(kept_, end_before + blanks);
         needed_ = std::max(needed_, end_before + gap);
@@ -72,7 +73,7 @@ private:
     const FormatWord& word(std::size_t line, std::size_t cell) const {
         return words_[lines_[line].cells[cell].word];
     }
-    /// Whether words of the line may be aligned with words of the line above.
+    /// Whether words of the line may be aligned with words of the previous line.
     bool is_below(std::size_t line) const {
         return !lines_[line].blank_line_before && begins_statement(line) &&
                begins_statement(line - 1);
@@ -108,7 +109,8 @@ private:
         struct Candidate {
             std::size_t cell = 0;
             Alignment alignment = Alignment::free;
-            std::size_t column = no_column;  ///< An index into `columns`.
+            /// An index into `columns`, if the word is in a column.
+            std::size_t column = no_column;
         };
         std::vector<Column> columns;
         std::vector<Candidate> above;
@@ -167,7 +169,8 @@ private:
     std::size_t end_of(std::size_t line, std::size_t cell) const {
         return lines_[line].cells[cell].column + width_of(word(line, cell).text);
     }
-    /// Sets the columns of the cells of a line from the first one without a column up to `end`.
+    /// Sets the columns of a line's cells, from the first cell whose column is not set to the cell
+    /// before `end`.
     void place_up_to(std::size_t line, std::size_t end) {
         for (std::size_t& cell = placed_[line]; cell < end; ++cell) {
             lines_[line].cells[cell].column =
@@ -175,11 +178,12 @@ private:
         }
     }
 
-    // Inside a statement, lines begin below the first word after the innermost open bracket. If no
-    // bracket is open, they begin below the start of the statement's value.
+    // A line that continues a statement begins below the first word after the innermost open
+    // bracket. If no bracket is open, the line begins below the start of the statement's value.
     struct Bracket {
         std::size_t inside = 0;  ///< The column at which lines inside the bracket begin.
-        std::size_t close = 0;   ///< The column of the closing bracket, if it begins a line.
+        /// The column of the closing bracket if it is the first word of a line.
+        std::size_t close = 0;
     };
 
     void place_continued(std::size_t line) {
@@ -255,7 +259,8 @@ private:
             begin = end - 1;
         }
     }
-    /// Whether the comment of `line` belongs to the column of comments that begins in line `first`.
+    /// Whether the comment of line `line` belongs to the column of comments that begins in line
+    /// `first`.
     bool is_in_column(std::size_t first, std::size_t line) const {
         const FormatLine& here = lines_[line];
         if (line == first) return true;
@@ -265,8 +270,8 @@ private:
 
     const std::vector<FormatWord>& words_;
     std::vector<FormatLine>& lines_;
-    std::vector<std::size_t> placed_;  ///< For each line, the number of its cells whose column has
-                                       ///< been set.
+    /// For each line, the number of its cells whose column has been set.
+    std::vector<std::size_t> placed_;
     bool respelled_;
     std::vector<Bracket> brackets_;
     std::size_t value_column_ = no_column;

@@ -23,7 +23,7 @@ public:
             breaks_ = std::max(breaks_, word.breaks);
             if (word.kind == TokenKind::semicolon) {
                 semicolon_ = k;
-                continue;  // A `;` is written only if a statement follows on the line.
+                continue;  // A `;` is written later, if another statement follows on the same line.
             }
             if (word.is_comment()) add_comment(k);
             else if (word.kind == TokenKind::open_curly) open_block(k);
@@ -108,8 +108,8 @@ private:
         open_brackets_ = 0;
     }
 
-    /// Whether the block is written on one line and is not wider than a line may be. Reads at most
-    /// one line ahead.
+    /// Whether the author wrote the whole block on one line, and the formatted block fits on one
+    /// line. Reads at most one line ahead.
     bool is_one_line_block(std::size_t open) const {
         std::size_t width = width_ + 2;
         for (std::size_t k = open + 1; k < words_.size(); ++k) {
@@ -122,8 +122,7 @@ private:
         return false;
     }
 
-    /// Whether the rest of the author's line, after `width` columns, is not wider than a line may
-    /// be.
+    /// Whether the rest of the author's line fits on a line that already has `width` columns.
     bool fits(std::size_t first, std::size_t width) const {
         for (std::size_t k = first; k < words_.size(); ++k) {
             const FormatWord& word = words_[k];
@@ -139,18 +138,18 @@ private:
 
     const std::vector<FormatWord>& words_;
     std::vector<FormatLine> lines_;
-    const FormatWord* before_ = nullptr;       ///< The last word that is not a comment.
-    const FormatWord* line_before_ = nullptr;  ///< The last word on this line that is not a
-                                               ///< comment.
-    std::optional<std::size_t> semicolon_;     ///< The `;` between the last word and the next, if
-                                               ///< there is one.
-    std::size_t breaks_ = 0;                   ///< The number of line breaks since the last word.
-    std::size_t width_ = 0;                    ///< The least width of the line so far.
+    const FormatWord* before_ = nullptr;  ///< The last word that is not a comment.
+    /// The last word on this line that is not a comment.
+    const FormatWord* line_before_ = nullptr;
+    std::optional<std::size_t> semicolon_;  ///< The `;` after the last word, if there is one.
+    std::size_t breaks_ = 0;                ///< The number of line breaks since the last word.
+    std::size_t width_ = 0;                 ///< The width that the present line has at least.
     std::size_t open_brackets_ = 0;
     bool in_block_ = false;
     bool in_one_line_block_ = false;
-    bool block_begins_ = false;  ///< Whether only the `{` of a block, and a comment after it, have
-                                 ///< been written so far.
+    /// Whether nothing but the `{` of a block, and perhaps a comment after it, has been written so
+    /// far.
+    bool block_begins_ = false;
     bool needs_line_ = false;
     bool splits_at_semicolons_ = false;
 };

@@ -1,5 +1,5 @@
-// Respells words in ASCII or in the notation of papers. Words that a notation omits become empty
-// texts: brackets after ∇, the sign of a product, the ^ of a superscript.
+// Respells words in ASCII or in the notation of papers. If a notation omits a word, the word's text
+// becomes empty. Examples are brackets after ∇, the sign of a product and the ^ of a superscript.
 #include "lang/format/format_notation.h"
 
 #include "lang/syntax/kept_spellings.h"
@@ -36,7 +36,8 @@ private:
     TokenKind kind(std::size_t k) const {
         return k < words_.size() ? words_[k].kind : TokenKind::end_of_text;
     }
-    /// Whether the words [first, last] are on one line, without comments.
+    /// Whether the words from `first` to `last`, both included, are on one line, without comments
+    /// between them.
     bool is_on_one_line(std::size_t first, std::size_t last) const {
         for (std::size_t k = first; k <= last; ++k) {
             if (k >= words_.size() || words_[k].breaks > 0 || words_[k].is_comment()) return false;
@@ -71,8 +72,8 @@ private:
             default: break;
         }
     }
-    /// Respells a prime. u' = … becomes ∂u/∂t = …, and u'' = … becomes ∂²u/∂t² = …. Other primes
-    /// become ′.
+    /// Respells the prime after a species: u' = … becomes ∂u/∂t = …, and u'' = … becomes ∂²u/∂t² =
+    /// …. Any other prime becomes ′.
     void write_prime(std::size_t k) {
         words_[k].text = "′";
         const TokenKind next = kind(k + 1);
@@ -89,7 +90,8 @@ private:
         if (is_second) words_[k - 1].text = "";
     }
 
-    /// The sign of a function with one operand, such as ∇² for lap. Empty for other words.
+    /// The sign that papers write for a function with one operand, such as ∇² for lap. Empty for
+    /// other words.
     static std::string_view sign_of(std::string_view function) {
         constexpr std::array<std::pair<std::string_view, std::string_view>, 4> signs{
             {{"lap", "∇²"}, {"div", "∇·"}, {"grad", "∇"}, {"sqrt", "√"}}};
@@ -97,7 +99,7 @@ private:
                                         [&](const auto& row) { return row.first == function; });
         return found == signs.end() ? std::string_view() : found->second;
     }
-    /// Whether the words from `name` on are a call that can be written with a sign.
+    /// Whether the word `name` begins a call that can be written with a sign.
     bool is_application(std::size_t name) const {
         const bool is_call =
             kind(name) == TokenKind::name && kind(name + 1) == TokenKind::open_round;
@@ -116,8 +118,8 @@ private:
         }
         return is_on_one_line(open, open + 1);
     }
-    /// Whether an operand needs no brackets after a sign. This is true of u, u[i], u', and of a
-    /// call that is written with a sign, too.
+    /// Whether an operand needs no brackets after a sign. True for a number, for u, u[i] and u',
+    /// and for a call that is itself written with a sign.
     bool is_plain_operand(std::size_t first, std::size_t end) const {
         if (kind(first) == TokenKind::number) return first + 1 == end;
         if (kind(first) != TokenKind::name) return false;
@@ -188,7 +190,7 @@ private:
         if (is_negative) words_[caret + 1].text = "⁻";
     }
 
-    /// Removes the sign of products before ∇ or √ and after a superscript.
+    /// Removes the signs of products before ∇ or √ and after a superscript.
     void leave_out_products() {
         std::vector<bool> divisors;
         bool is_divisor = false;
@@ -216,7 +218,7 @@ private:
                 case TokenKind::caret:
                 case TokenKind::prime:
                 case TokenKind::dot:
-                case TokenKind::newline: break;  // A comment.
+                case TokenKind::newline: break;  // A token of kind newline is a comment.
                 default: is_divisor = false;
             }
         }
@@ -232,8 +234,8 @@ private:
     }
 
     std::vector<FormatWord>& words_;
-    std::vector<std::size_t> partner_;  ///< For each opening or closing bracket, the index of the
-                                        ///< matching bracket.
+    /// For each opening or closing bracket, the index of the matching bracket.
+    std::vector<std::size_t> partner_;
     std::vector<bool> is_operator_, ends_application_;
 };
 

@@ -8,7 +8,7 @@
 
 namespace cascade {
 
-/// The words of the formatted script, spelled in this notation.
+/// Spells the words of the formatted script in this notation.
 std::vector<FormatWord> written_words(std::vector<FormatWord> words, ScriptNotation notation);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Formats a script, and checks that the words before and after are the same.
+// Formats a script, and checks that formatting has not changed the words.
 #include "lang/format/format_script.h"
 
 #include "core/check.h"
@@ -30,7 +30,8 @@ std::string write_lines(const std::vector<FormatWord>& words,
     return text;
 }
 
-/// Whether both lists have the same words, apart from `;`, which may have become a line break.
+/// Whether both lists contain the same words. `;` is ignored, because it may have become a line
+/// break.
 bool same_words(const std::vector<FormatWord>& before, const std::vector<FormatWord>& after) {
     const auto is_written = [](const FormatWord& word) {
         return word.kind != TokenKind::semicolon;
@@ -40,8 +41,8 @@ bool same_words(const std::vector<FormatWord>& before, const std::vector<FormatW
         left = std::find_if(left, before.end(), is_written);
         right = std::find_if(right, after.end(), is_written);
         if (left == before.end() || right == after.end()) break;
-        // In the notation of papers, the product of (1 + lap)² and its operand has no sign. So the
-        // sign of such a product may be missing.
+        // In the notation of papers, the product of (1 + lap)² and its operand is written without a
+        // sign. So one list may lack the sign of such a product.
         const auto is_left_out = [](const FormatWord& word) {
             return word.kind == TokenKind::star && word.text.empty();
         };

@@ -1,4 +1,4 @@
-// Finds the words of a script, and decides which of them have a blank between them.
+// Finds the words of a script, and decides between which words there is a blank.
 #include "lang/format/format_words.h"
 
 #include "core/utf8.h"
@@ -13,11 +13,11 @@ namespace {
 
 constexpr std::size_t tab_width = 8;
 
-/// Collects tokens, and splits the text between two tokens into comments.
+/// Collects tokens, and divides the text between two tokens into comments.
 class WordList {
 public:
     explicit WordList(std::string_view text) : text_(text) {
-        if (text.starts_with("\xef\xbb\xbf")) offset_ = 3;  // A byte order mark.
+        if (text.starts_with("\xef\xbb\xbf")) offset_ = 3;  // Skips the byte order mark.
     }
 
     void add_token(const Token& token) {
@@ -27,7 +27,7 @@ public:
         words_.back().gap = next_gap_;
         next_gap_.reset();
     }
-    /// Sets the numbers of blanks before the last word and before the next one.
+    /// Sets the numbers of blanks before the last word and before the next word.
     void set_gaps(std::size_t before, std::size_t after) {
         words_.back().gap = before;
         next_gap_ = after;
@@ -90,8 +90,8 @@ bool ends_operand(TokenKind kind) {
            kind == TokenKind::close_square;
 }
 
-/// Whether the word is an operator around which the author's blanks stay, because the blanks show
-/// which operands belong together: `a*b + 1/8`, `1..n`.
+/// Whether the author's blanks around an operator stay, because they show which operands belong
+/// together: `a*b + 1/8`, `1..n`.
 bool is_author_spaced(const FormatWord& word) {
     return word.kind == TokenKind::star || word.kind == TokenKind::slash ||
            word.kind == TokenKind::dots;
@@ -99,10 +99,11 @@ bool is_author_spaced(const FormatWord& word) {
 
 bool is_apart(const FormatWord& word) { return word.blanks > 0 || word.breaks > 0; }
 
-/// Finds out from neighbouring words which words are signs, infix names and operators with blanks.
+/// Decides which words are signs, infix names, or operators with blanks around them, from the words
+/// before and after each word.
 void find_roles(std::vector<FormatWord>& words) {
     const FormatWord* before = nullptr;  // The last word that is not a comment.
-    FormatWord* waiting = nullptr;       // An operator whose right side comes next.
+    FormatWord* waiting = nullptr;  // The previous word, if it is an operator whose blanks stay.
     for (FormatWord& word : words) {
         if (waiting != nullptr) waiting->is_spaced = waiting->is_spaced || is_apart(word);
         waiting = nullptr;
@@ -156,7 +157,9 @@ std::vector<FormatWord> format_words(SourceId source, const Sources& sources) {
 std::size_t blanks_between(const FormatWord& left, const FormatWord& right) {
     using Kind = TokenKind;
     if (right.gap) return *right.gap;
-    if (left.is_sign) return right.is_sign ? 1 : 0;  // `--` is not an operator.
+    if (left.is_sign)
+        // Two signs are separated, because `--` is not an operator.
+        return right.is_sign ? 1 : 0;
     switch (right.kind) {
         case Kind::comma:
         case Kind::semicolon:
@@ -184,7 +187,7 @@ std::size_t blanks_between(const FormatWord& left, const FormatWord& right) {
     if (left.kind == Kind::dots) return left.is_spaced ? 1 : 0;
     if (right.kind == Kind::open_round) return left.kind == Kind::name && !left.is_infix ? 0 : 1;
     if (right.kind == Kind::open_square && left.kind == Kind::name) {
-        return is_apart(right) ? 1 : 0;  // u[i] is a member of a family.
+        return is_apart(right) ? 1 : 0;  // Without a blank, u[i] is a member of a family.
     }
     return 1;
 }

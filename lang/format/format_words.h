@@ -12,16 +12,17 @@
 
 namespace cascade {
 
-/// A word: a comment, or a token that is not a line end.
+/// A word: a comment, or a token that is not a line break.
 struct FormatWord {
-    TokenKind kind = TokenKind::end_of_text;  ///< `newline` for a comment.
-    std::string_view text;                    ///< As written. Comments have no trailing blanks.
-    std::string_view spelling;       ///< The token's spelling in ASCII. Empty for a comment.
-    std::optional<std::size_t> gap;  ///< The number of blanks before the word, if its notation
-                                     ///< prescribes this number.
-    std::size_t breaks = 0;          ///< Line breaks between the previous word and this one.
-    std::size_t blanks = 0;  ///< The number of columns between the previous word, or the start of
-                             ///< the line, and this word.
+    /// The kind of the token. A comment has the kind `newline`.
+    TokenKind kind = TokenKind::end_of_text;
+    std::string_view text;  ///< The text as it will be written. Comments have no trailing blanks.
+    std::string_view spelling;  ///< The token's spelling in ASCII. Empty for a comment.
+    /// The number of blanks before the word, if the notation prescribes it.
+    std::optional<std::size_t> gap;
+    std::size_t breaks = 0;  ///< The number of line breaks between the previous word and this word.
+    /// The number of columns between the previous word, or the start of the line, and this word.
+    std::size_t blanks = 0;
     std::size_t column = 0;  ///< The word's column in the source, from 0.
     bool is_sign = false;    ///< A unary minus.
     bool is_spaced = false;  ///< An operator written with blanks around it.
@@ -31,8 +32,8 @@ struct FormatWord {
     bool is_comment() const { return kind == TokenKind::newline; }
 };
 
-/// The words of a script without lexical errors, in order, except the end of the text. A word that
-/// the notation of papers omits has an empty text.
+/// The words of a script without lexical errors, in order. The end of the text is not included. If
+/// the notation of papers omits a word, the word's text is empty.
 std::vector<FormatWord> format_words(SourceId source, const Sources& sources);
 
 /// The number of blanks between two words on a line: 0 or 1. Neither word may be a comment.

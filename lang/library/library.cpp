@@ -1,5 +1,5 @@
-// Finds the library systems and shapes that a script names, and their bases. Parses no other texts
-// of the library.
+// Finds the library systems and shapes that a script names, and their bases. Parses only these
+// texts of the library.
 #include "lang/library/library.h"
 
 #include "core/check.h"
@@ -15,7 +15,7 @@ namespace cascade {
 
 namespace {
 
-/// The source of a library's text, if an earlier check has added it.
+/// The source of a library text, if an earlier check has added the text to `sources`.
 std::optional<SourceId> find_source(const LibraryText& text, const Sources& sources) {
     for (SourceId id = 0; id < sources.size(); ++id) {
         if (sources[id].name() == text.file_name && sources[id].text() == text.text) return id;
@@ -23,7 +23,7 @@ std::optional<SourceId> find_source(const LibraryText& text, const Sources& sour
     return std::nullopt;
 }
 
-/// The source of a library's text. Adds the source if no earlier check has added it.
+/// The source of a library text. Adds the text to `sources` if no earlier check has added it.
 SourceId source_of(const LibraryText& text, Sources& sources) {
     if (const auto known = find_source(text, sources)) return *known;
     return sources.add(std::string(text.file_name), std::string(text.text));
@@ -69,22 +69,23 @@ std::vector<std::string_view> names_wanted(const ast::Script& script) {
     return wanted;
 }
 
-/// The text with this name. The list must be in alphabetical order.
+/// The text of the system or shape with this name; null if there is none. `texts` must be in
+/// alphabetical order.
 const LibraryText* text_of(std::span<const LibraryText> texts, std::string_view name) {
     const auto found = std::ranges::lower_bound(texts, name, {}, &LibraryText::system_name);
     return found != texts.end() && found->system_name() == name ? &*found : nullptr;
 }
 
-/// The texts with these names, and the texts of their bases. Each comes after its base. `find`
-/// returns the text of a name.
+/// Parses the texts with these names, and the texts of their bases. In the result, each text comes
+/// after its bases. `find` returns the text with a given name.
 template <typename Find>
 std::vector<LibraryScript> read_texts(const std::vector<std::string_view>& names, const Find& find,
                                       Sources& sources, Diagnostics& diagnostics) {
     std::vector<LibraryScript> result;
     std::unordered_set<std::string_view> read;
     for (const std::string_view name : names) {
-        // Visits each text twice: the first visit adds the text's bases to the list, the second the
-        // text itself.
+        // Visits each text twice: the first visit adds the text's bases to `open`, and the second
+        // visit adds the text to the result.
         std::vector<std::string_view> open{name};
         std::unordered_map<std::string_view, LibraryScript> waiting;
         while (!open.empty()) {

@@ -1,5 +1,5 @@
-// Collects statements by following the bases in the syntax tree. Needs no checked script, so the
-// equations of any script can be printed.
+// Collects a system's statements by following its bases in the syntax tree. Needs no checked
+// script, so the equations of any script can be printed.
 #include "lang/library/system_statements.h"
 
 #include "lang/library/library.h"
@@ -66,7 +66,7 @@ SystemStatements::SystemStatements(const ast::Script& script, const Sources& sou
         doc_ = first.block->doc;
         is_cells_ = first.block->is_cells;
     }
-    // Depth first: a block is added after all its bases, and only once.
+    // Visits blocks depth first: a block is added after all its bases, and only once.
     struct Open {
         FoundBlock found;
         std::size_t bases_taken = 0;
@@ -95,10 +95,11 @@ SystemStatements::SystemStatements(const ast::Script& script, const Sources& sou
     }
 }
 
-/// Adds the statements of a block to the inherited statements. Some replace inherited statements.
+/// Adds the statements of a block. Some of these replace inherited statements.
 void SystemStatements::derive(const FoundBlock& found) {
     struct Change {
-        std::size_t first = SIZE_MAX;  ///< The first inherited statement that it replaces.
+        /// The first inherited statement that the statement replaces.
+        std::size_t first = SIZE_MAX;
         bool is_used = false;
     };
     std::unordered_map<std::string, Change> changes;
@@ -109,7 +110,7 @@ void SystemStatements::derive(const FoundBlock& found) {
     std::vector<bool> dropped(statements_.size(), false);
     for (std::size_t k = 0; k < statements_.size(); ++k) {
         const ast::Statement& inherited = *statements_[k].statement;
-        // A statement about all members of a family changes each member.
+        // A statement about all members of a family also replaces statements about a single member.
         for (const std::string& member : {std::string(), member_of(inherited)}) {
             const auto change = changes.find(subject_of(inherited) + member);
             if (change == changes.end()) continue;

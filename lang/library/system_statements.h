@@ -19,9 +19,9 @@ struct SaidStatement {
     const ast::Script* script = nullptr;
     const Sources* sources = nullptr;
     const ast::Statement* statement = nullptr;
-    /// The statement that gives the doc comment, and the statement that gives the range: the
-    /// statement itself or, if it has none, the inherited statement that it replaces. Null if there
-    /// is none.
+    /// `doc` is the statement whose doc comment applies: `statement` itself or, if it has no doc
+    /// comment, the inherited statement that it replaces. Null if neither has one. `range` is the
+    /// same for the range.
     const ast::Statement* doc = nullptr;
     const ast::Statement* range = nullptr;
     const ast::Script* range_script = nullptr;
@@ -36,8 +36,9 @@ std::string subject_of(const ast::Statement& statement);
 using SystemBlocks = std::unordered_map<std::string_view, const ast::Block*>;
 SystemBlocks system_blocks(const ast::Script& script);
 
-/// The statements of a system of a checked script or of the library. Statements of its bases come
-/// first. If a derived system replaces a statement of its base, only the replacement is included.
+/// The statements of a system of a checked script or of the library. The statements of the system's
+/// bases come first. If a derived system replaces a statement of its base, only the replacement is
+/// included.
 class SystemStatements {
 public:
     /// `blocks` must be system_blocks(script).
@@ -49,9 +50,9 @@ public:
     const std::vector<SaidStatement>& all() const { return statements_; }
     /// Whether the system is a block of cells.
     bool is_cells() const { return is_cells_; }
-    /// The doc comment of the system itself; may be empty.
+    /// The system's own doc comment; may be empty.
     const std::string& doc() const { return doc_; }
-    /// Whether the name has a rate. `name` has no index.
+    /// Whether the system has a rate of `name`, which must not have an index.
     bool is_species(std::string_view name) const { return species_.contains(name); }
 
 private:
@@ -63,7 +64,7 @@ private:
     struct FoundBlock {
         const ast::Script* script = nullptr;
         const Sources* sources = nullptr;
-        const SystemBlocks* blocks = nullptr;  ///< The blocks of `script`.
+        const SystemBlocks* blocks = nullptr;  ///< The system blocks of `script`.
         const ast::Block* block = nullptr;
     };
     /// Finds the block of a system in the script `beside.script`.

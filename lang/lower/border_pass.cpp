@@ -3,9 +3,9 @@
 //
 // The rules are the same as at the sides of the grid (spec/domain.md, "Beyond the sides"). A
 // species, or a definition with its own rule for the border, has the value that this rule gives. A
-// function is computed from such operands. Operators, shapes, draws and files are mirrored. At the
-// border there is no halo, so these values are expressions of values in the cell beside the border.
-// They are the same for all neighbours of this cell outside the mask.
+// function is computed from the values of its operands beyond the border. Operators, shapes, draws
+// and files are mirrored. There is no halo at the border, so the values beyond it are expressions
+// of values in the cell beside the border. All neighbours outside the mask get the same values.
 #include "lang/calculus/side_values.h"
 #include "lang/lower/graph_passes.h"
 
@@ -28,8 +28,9 @@ public:
           flattening_(graph()) {}
 
 private:
-    /// Two values: beyond the border, and beyond two borders. The second is used for a diagonal
-    /// neighbour if both cells adjacent to it and to the present cell are outside.
+    /// The value beyond the border, and the value beyond two borders. The second value is used for
+    /// a diagonal neighbour if both cells that are adjacent to it and to the present cell are
+    /// outside.
     using Beyond = std::array<NodeId, 2>;
 
     NodeId image_of(const Node& node) override {
@@ -53,7 +54,7 @@ private:
         return bordered(term(operand), term(once), term(twice));
     }
 
-    /// The values of a node beyond the border. Empty if the node is mirrored.
+    /// The values of a node beyond the border. nullopt if the node is mirrored.
     std::optional<Beyond> beyond_of(NodeId id, const Node& node) {
         const SideSetting* const rule = rule_of(node);
         if (rule != nullptr) {
@@ -91,8 +92,8 @@ private:
         return species && !species_.empty() ? &species_[*species][border] : nullptr;
     }
 
-    /// The value beyond the border: 2e − c for a value e, or c + h e for a slope e, where c is
-    /// `cell`. Rounded in the same way as in halos.
+    /// The value beyond the border. For a fixed value e it is 2e − c, and for a slope e it is c + h
+    /// e, where c is `cell`. The value is rounded in the same way as in halos.
     NodeId across(const SideSetting& rule, NodeId value, NodeId cell) {
         if (rule.kind == SideKind::fixed) return leaf(2.0) * term(value) - term(cell);
         const Term spacing = leaf(context().grid().spacing);
@@ -101,9 +102,11 @@ private:
 
     const System& system_;
     IdVector<SpeciesId, SideSettings> species_;
-    std::unordered_map<NodeId, std::size_t> definitions_;  ///< By nodes of the old graph.
+    /// The index in Stage::definition_sides, for each node of the old graph that has its own rules.
+    std::unordered_map<NodeId, std::size_t> definitions_;
     Flattening flattening_;
-    std::unordered_map<NodeId, Beyond> beyond_;  ///< By nodes of the new graph.
+    /// The values beyond the border, for each node of the new graph that is not mirrored.
+    std::unordered_map<NodeId, Beyond> beyond_;
 };
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Eliminates column by column, then substitutes from the last unknown to the first.
+// Solves equations by elimination column by column, and then by substitution from the last unknown
+// to the first.
 #include "lang/lower/cell_equations.h"
 
 #include <utility>
@@ -9,7 +10,8 @@ namespace {
 
 using Row = std::vector<ValueId>;
 
-/// Exchanges two rows, from `column` on, if the second row has the larger magnitude in this column.
+/// Exchanges two rows, from `column` on, if the second row has the number of larger magnitude in
+/// this column.
 void put_larger_first(KernelBuilder& builder, Row& first, Row& second, std::size_t column) {
     if (is_zero(builder, second[column])) return;
     if (is_zero(builder, first[column])) return std::swap(first, second);

@@ -1,5 +1,5 @@
 // Computes positions from the numbers of columns, rows and slices. The positions of a model's cells
-// are in planes.
+// are read from planes.
 #include "lang/lower/cell_place.h"
 
 #include "core/check.h"
@@ -10,7 +10,8 @@
 namespace cascade::lowering {
 
 /// The number of the column, row or slice. A cell beyond a periodic side has the number of the
-/// opposite cell. A cell beyond another side has the number of the cell beside the side.
+/// opposite cell. A cell beyond a side that is not periodic has the number of the cell beside this
+/// side.
 ValueId CellPlace::number(int axis) {
     const Grid& grid = assembly_.program().domain.grid;
     const std::array sides{grid.width, grid.height, grid.depth};
@@ -37,7 +38,8 @@ ValueId CellPlace::coordinate(int axis, std::int64_t side) {
     const ValueId number = builder_.apply(Op::bits_to_number, this->number(axis));
     const ValueId centre = builder_.add(number, builder_.number(0.5));
     const ValueId place = builder_.divide(centre, builder_.number(static_cast<double>(side)));
-    builder_.keep(place);  // Not contracted, so that positions are the same in all formulas.
+    // Excluded from contraction, so that positions are the same in all formulas.
+    builder_.keep(place);
     return place;
 }
 
@@ -65,7 +67,7 @@ ValueId CellPlace::builtin(Builtin builtin) {
     CHECK(false, "lowering: every built-in value has a meaning");
 }
 
-/// The position of a cell that crawls, which is stored in species.
+/// The position of a crawling cell, which is stored in species.
 Space CellPlace::space_of_tissue() {
     const DomainSettings& domain = assembly_.program().domain;
     const Grid& grid = domain.grid;
@@ -102,8 +104,8 @@ Space CellPlace::space() {
 ValueId CellPlace::content() {
     if (assembly_.context().is_tissue()) return builder_.number(1);
     if (assembly_.program().domain.model) {
-        // The copies of a cell that fill up the last row have area 0, which is replaced because
-        // formulas may divide by the area.
+        // The last row is filled up with copies of a cell. The area of a copy is 0, and is replaced
+        // here because formulas may divide by the area.
         const ValueId area = of_model(ModelPlane::area);
         const ValueId is_copy = builder_.apply(Op::equal, area, builder_.number(0));
         return builder_.select(is_copy, builder_.number(1), area);
@@ -112,8 +114,8 @@ ValueId CellPlace::content() {
     return builder_.number(std::pow(domain.grid.spacing, axes_of(domain)));
 }
 
-/// The draw word of the cell. The hash takes column and row separately. In slices other than the
-/// first, the slice changes the word.
+/// The draw word of the cell. Column and row enter the hash separately. The slice does not, so in
+/// slices other than the first it changes the draw word.
 ValueId CellPlace::draw(ValueId draw) {
     if (assembly_.context().has_links()) {
         builder_.set_cell(of_model(ModelPlane::number));

@@ -1,4 +1,4 @@
-// Values that describe the position of a cell. Functions of position are computed from them
+// Values that describe the position of a cell, from which functions of position are computed
 // (internal to lowering).
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace cascade::lowering {
 
-/// The position of the cell at an offset from the present cell.
+/// The position of a cell, which is given by its offset from the present cell.
 class CellPlace {
 public:
     CellPlace(KernelAssembly& assembly, Offset at)
@@ -16,10 +16,10 @@ public:
     ValueId builtin(Builtin builtin);
     ValueId of_model(ModelPlane plane) { return assembly_.field(plane, at_); }
     Space space();
-    /// The length, area or volume of the cell in the script's units; 1 for a cell that crawls.
+    /// The length, area or volume of the cell in the script's units; 1 for a crawling cell.
     ValueId content();
-    /// The draw word of the cell's random numbers: the step's word `draw`, changed in all slices
-    /// but the first.
+    /// The draw word for the cell's random numbers. In the first slice it is the step's word
+    /// `draw`. In other slices the slice changes it.
     ValueId draw(ValueId draw);
 
 private:

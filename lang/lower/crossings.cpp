@@ -1,4 +1,4 @@
-// Passes the facts from operands to the nodes that read them.
+// Finds the facts about each node from the facts about its operands.
 #include "lang/lower/crossings.h"
 
 namespace cascade::lowering {

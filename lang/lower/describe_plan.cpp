@@ -14,10 +14,10 @@ namespace cascade::lowering {
 
 namespace {
 
-/// A formula with more nodes than this is cut in descriptions.
+/// A formula with more nodes than this number is cut in descriptions.
 constexpr NodeId longest_shown{60};
 
-/// The node whose value beyond the border of a mask is the node `beyond`. Empty if there is none.
+/// The node whose value beyond the border of a mask is `beyond`. nullopt if there is none.
 std::optional<NodeId> inside_of(const PlanGraph& graph, NodeId beyond) {
     for (const NodeId id : ids_below<NodeId>(graph.size())) {
         const Node& node = graph[id];
@@ -27,7 +27,7 @@ std::optional<NodeId> inside_of(const PlanGraph& graph, NodeId beyond) {
     return std::nullopt;
 }
 
-/// Describes a node that is not written in the script, such as an entry of a tensor, or a part of
+/// Describes a node that does not come from the script, such as an entry of a tensor, or a part of
 /// an operator on a surface or a model.
 std::string describe_made(const PlanGraph& graph, const Node& node) {
     if (graph.context().is_tissue()) return "a component of a vector";
@@ -113,8 +113,8 @@ std::string describe(const PlanGraph& graph, const PassPlanner& planner, const S
         text += ": ";
         for (std::size_t k = 0; k < results.size(); ++k) text += (k > 0 ? ", " : "") + results[k];
     }
-    std::vector<std::pair<std::string, std::size_t>> step_invariants;  // The name and the index of
-                                                                       // each.
+    // Descriptions of step-invariants, and how often each occurs in succession.
+    std::vector<std::pair<std::string, std::size_t>> step_invariants;
     for (const NodeId id : graph.ids()) {
         if (!planner.is_needed(id) || !planner.is_step_invariant(id)) continue;
         std::string words = describe_step_invariant(graph, id);

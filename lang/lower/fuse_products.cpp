@@ -1,6 +1,7 @@
-// Turns sums in which an operand is a product into multiply-adds, and divisions by a uniform value
-// into products with a reciprocal. Whether a sum is fused depends only on the expressions, not on
-// the planes to which nodes are written later. So every plan of a step computes the same bits.
+// Turns sums that have a product as an operand into multiply-adds, and turns divisions by a uniform
+// value into products with its reciprocal. Whether a sum is fused depends only on the expressions,
+// not on the planes to which nodes are written later. So every plan of a step computes the same
+// bits.
 #include "lang/lower/graph_passes.h"
 #include "lang/lower/plan_graph.h"
 #include "lang/program/calls.h"
@@ -24,7 +25,7 @@ private:
     };
 
     /// Whether the value may change during a stage. A value that cannot change is computed once,
-    /// and rounded.
+    /// and is rounded then.
     bool may_change(NodeId old) const {
         return !facts_.is_uniform(old) && !facts_.is_step_invariant(old) &&
                facts_.sides(old) == nullptr && facts_[old].type == ValueType::number;
@@ -55,8 +56,8 @@ private:
         if (!calls(node, is_sum) || a == b) return keep(node);
         const auto left = product(a), right = product(b);
         if (!left && !right) return keep(node);
-        // If both operands are products, the first is fused if only it has a uniform factor,
-        // otherwise the second.
+        // Fuses the only product. If both operands are products, fuses the first if only the first
+        // has a uniform factor, and otherwise fuses the second.
         const bool fuses_left =
             left && (!right || (left->has_coefficient && !right->has_coefficient));
         auto [first, second, has_coefficient] = fuses_left ? *left : *right;

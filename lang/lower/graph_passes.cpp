@@ -14,7 +14,7 @@ namespace cascade::lowering {
 namespace {
 
 /// Replaces tensor(a1, a2, theta) and symmetric(…) by a tensor node whose operands are the tensor's
-/// entries. The operands of `diffuse` become such a tensor and the value that diffuses.
+/// entries. The operands of `diffuse` become a tensor node and the value that diffuses.
 class Tensors : public GraphPass {
     using GraphPass::GraphPass;
 
@@ -36,9 +36,9 @@ class Tensors : public GraphPass {
     }
 };
 
-/// Writes out transport(v, e). Along each axis it is the upwind difference of e plus half of the
-/// upwind difference of limited slopes. So the values at faces are the values of the scheme MUSCL:
-/// e plus or minus half of the limited slope, both from the cell from which the flow comes.
+/// Writes transport(v, e) as a formula. Along each axis it is the upwind difference of e plus half
+/// of the upwind difference of limited slopes. So the values at faces are those of the scheme
+/// MUSCL: in the cell from which the flow comes, e plus or minus half of the limited slope.
 class Limiters : public GraphPass {
     using GraphPass::GraphPass;
 
@@ -72,8 +72,8 @@ class Limiters : public GraphPass {
     }
 };
 
-/// Writes out shifted(e, i, j) as steps to adjacent cells: first along x, then along y and z. Along
-/// an axis of one cell there is no step.
+/// Writes shifted(e, i, j) as steps to adjacent cells: first along x, then along y and z. Along an
+/// axis with one cell there is no step.
 class Shifts : public GraphPass {
     using GraphPass::GraphPass;
 
@@ -131,7 +131,7 @@ class Areas : public GraphPass {
     }
 };
 
-/// Outside the mask, replaces the operand of an aggregate or a convolution by a value that does not
+/// Outside the mask, gives the operand of an aggregate or a convolution a value that does not
 /// change the result.
 class MaskedAggregates : public GraphPass {
     using GraphPass::GraphPass;
@@ -145,7 +145,7 @@ class MaskedAggregates : public GraphPass {
                                                                        : 0;
         const Node& of = graph()[node.operands[0]];
         const bool is_item = of.is<ItemId>() || of.is<StageItem>();
-        // Items that vary are 0 outside the mask.
+        // Items that vary need no replacement, because they are 0 outside the mask.
         if (without_effect == 0 && is_item &&
             differs_by_cell(of, false, context().program, context().stage)) {
             return keep(node);

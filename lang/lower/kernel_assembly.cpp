@@ -1,4 +1,4 @@
-// Finds slots by the names of their contents.
+// Finds the slots of a kernel by the names of their contents.
 #include "lang/lower/kernel_assembly.h"
 
 #include "core/overloaded.h"
@@ -15,8 +15,8 @@ std::string KernelAssembly::name_of(StageItem item) const {
     return fmt::format("{}.{}", program_.stages[item.stage].name, name);
 }
 
-/// A name for a source. No name of the language contains a dot or begins with a bracket, so names
-/// of different kinds cannot collide.
+/// The name of a source. No name in the language contains a dot or begins with a bracket, so the
+/// names of different kinds of sources cannot be equal.
 template <typename... Sources>
 std::string KernelAssembly::name_of(const std::variant<Sources...>& source) const {
     const auto of = [](const auto& names, auto key) {
@@ -32,15 +32,15 @@ std::string KernelAssembly::name_of(const std::variant<Sources...>& source) cons
             return fmt::format("{} (input {})", name_of(StageItem{stage_, each.item}), each.input);
         },
         [&](NamedPlane each) {
-            // The arguments may be long, so the name contains the unique index of the reading
-            // instead.
+            // The name contains the unique index of the reading and not its arguments, because
+            // these may be long.
             const std::string read = fmt::format("{}(\"{}\")", info(each.function).spelling,
                                                  program_.literals->text(each.text));
             return each.reading == 0 ? read : fmt::format("{} (reading {})", read, each.reading);
         },
         [&](SurfaceValueId id) {
-            // A long list of numbers would not fit into a name, so the name contains the unique
-            // index of the value instead.
+            // The name contains the unique index of the value and not its numbers, because the list
+            // of numbers may be long.
             const SurfaceValue& value = program_.literals->surface_value(id);
             return numbered(info(value.function).spelling, id);
         },
@@ -85,7 +85,7 @@ ValueId KernelAssembly::item(StageItem item, Offset at) {
     return builder_.mask(slot);
 }
 
-/// The length of the step: the stage's speed, unless the time loop chooses it.
+/// The length of the step. It is the stage's speed, unless the time loop chooses the length.
 ValueId KernelAssembly::time_step(Offset at) {
     const StageTime& time = stage().time;
     if (!time.has_duration() && !time.chooses_steps())
@@ -100,8 +100,8 @@ ValueId KernelAssembly::time(Offset at) {
     return builder_.multiply(step(), time_step(at));
 }
 
-/// Tests whether the cell at an offset is inside. The word (Neighbourhood) has one bit for the cell
-/// itself and one for each neighbour, in the order of the numbers of offsets.
+/// Tests whether the cell at an offset is inside the mask. The word (Neighbourhood) has a bit for
+/// the cell itself and a bit for each neighbour, in the order of the offsets' numbers.
 ValueId KernelAssembly::inside(Offset at) {
     const ValueId bit = builder_.word(only(at));
     const ValueId around = field(Neighbourhood{});

@@ -1,4 +1,4 @@
-// Assembles one kernel, and records the sources from which its slots get their values (internal to
+// Assembles a kernel, and records from which sources its slots get their values (internal to
 // lowering).
 #pragma once
 
@@ -13,8 +13,8 @@ namespace cascade::lowering {
 /// Assembles a kernel for the cells of a stage.
 class KernelAssembly {
 public:
-    /// If `frozen` varies by cell, it is read as a mask if `frozen_is_mask`, otherwise as a plane
-    /// of numbers like other items.
+    /// If `frozen` varies by cell, it is read as a mask if `frozen_is_mask` is true. Otherwise it
+    /// is read as a plane of numbers like other items.
     KernelAssembly(const PassContext& context, bool frozen_is_mask, EqualProducts products)
         : context_(context),
           program_(context.program),
@@ -33,18 +33,18 @@ public:
     ValueId field(const PlaneSource& source, Offset at = {});
     ValueId uniform(const UniformSource& source);
 
-    /// The value of an item of any stage (StageItem) or of this stage (ItemId).
+    /// The value of an item: of any stage (StageItem), or of this stage (ItemId).
     ValueId item(StageItem item, Offset at = {});
     ValueId item(ItemId item) { return this->item({stage_, item}); }
-    /// The number of steps completed before the current step.
+    /// The number of steps that were completed before the current step.
     ValueId step() { return uniform(TimeValue::step); }
-    /// The word that identifies the current step in random numbers.
+    /// The word by which random numbers depend on the current step.
     ValueId draw_word() { return builder_.draw_word(uniform(TimeValue::draw)); }
     /// The length of the current step.
     ValueId time_step(Offset at);
     /// The time at which rates are evaluated.
     ValueId time(Offset at);
-    /// A number other than 0 if the cell at an offset is inside the mask.
+    /// A number other than 0 if the cell at an offset is inside the mask, else 0.
     ValueId inside(Offset at);
     /// `value` inside the mask, and `outside` elsewhere.
     ValueId within_mask(ValueId value, float outside);

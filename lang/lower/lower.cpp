@@ -43,8 +43,9 @@ namespace {
 /// The value of views outside of the mask.
 constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
 
-/// Plans the starting values of some items: of the items that are computed before there are cells,
-/// or of all others. The plan reads the items that other plans compute.
+/// Plans the starting values of some items: of the items that are computed before the cells have
+/// been made (`before_cells`), or of all other items. The plan reads the items that other plans
+/// compute.
 StepPlan plan_items(const Program& program, std::uint32_t stage, const PlanOptions& options,
                     bool before_cells) {
     const Stage& source = program.stages[stage];

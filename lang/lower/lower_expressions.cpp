@@ -1,4 +1,4 @@
-// The list of passes, from formulas to the expressions that cells compute.
+// The list of passes that turn formulas into the expressions that cells compute.
 #include "lang/lower/lower_expressions.h"
 
 #include "core/check.h"
@@ -40,8 +40,8 @@ bool is_of_cell(const Node& node) { return is_operator(node) || node.is<Builtin>
 /// Before the first pass, definitions and rates have been replaced by their expressions
 /// (lang/program/flatten.h), and equal expressions have become one node.
 constexpr std::array passes{
-    // After this pass there are no vectors. Sums over neighbours are sums over links of numbers,
-    // and the operands of `theirs` are in planes.
+    // After this pass there are no vectors. Sums over neighbours have become sums of numbers over
+    // links, and the operands of `theirs` are in planes.
     PassInfo{"tissue", is_tissue, any_node, lay_on_tissue},
     // Not used on models. After this pass the operands of a tensor are its entries: a11, a12 and
     // a22, or in space a11, a12, a13, a22, a23 and a33. diffuse has two operands: a tensor and the
@@ -51,13 +51,14 @@ constexpr std::array passes{
     // and rows, multiplied by planes of the metric. Vectors are fluxes through faces, not
     // directions along the surface.
     PassInfo{"surface", has_metric, is_operator, lay_on_surface},
-    // Not used on surfaces. After this pass lap is the operator (isotropic), or derivatives of
-    // fourth order are combinations of derivatives of second order, some of which read planes of
-    // others.
+    // Not used on surfaces. If the stencil is isotropic, lap has become the operator (isotropic)
+    // after this pass. If the stencil is of fourth order, derivatives have become combinations of
+    // derivatives of second order, some of which read planes of others.
     PassInfo{"stencils", has_other_stencil, is_operator, write_out_stencils},
-    // After this pass the only limiters are slopes along an axis, which are in separate planes.
+    // After this pass the only limiters are slopes along an axis. The slopes are in separate
+    // planes.
     PassInfo{"limiters", has_faces, is_transport, write_out_limiters},
-    // After this pass values in other cells are values in adjacent cells, step by step.
+    // After this pass a value in another cell is read in steps from one cell to an adjacent cell.
     PassInfo{"shifts", has_faces, is_shift, write_out_shifts},
     // After this pass an operand that operators read at neighbours is a node (bordered) if its
     // values beyond the border of the mask differ from its value in the cell beside the border.
@@ -65,19 +66,19 @@ constexpr std::array passes{
     // After this pass positions and normals are planes of the model. There are no vectors: the
     // operand of div has become a sum of lap(weight, e).
     PassInfo{"links", is_on_model, is_of_cell, spread_over_links},
-    // After this pass the weight of each lap(weight, e) varies by cell.
+    // After this pass, if lap has a weight, lap(weight, e), the weight varies by cell.
     PassInfo{"weights", is_on_model, is_operator, take_out_even_weights},
-    // After this pass sums over the domain are weighted by the area of cells, and means are
-    // quotients of sums.
+    // After this pass, the areas of cells weight all sums over the domain, and means are quotients
+    // of sums.
     PassInfo{"areas", has_areas, is_aggregate, weigh_by_areas},
     // After this pass operands of aggregates and convolutions have no effect outside the mask.
     PassInfo{"mask", has_mask, is_of_whole_planes, leave_out_masked_cells},
-    // After this pass a sum with a product on one side is rounded once.
+    // After this pass a sum that has a product as an operand is rounded once.
     PassInfo{"products", has_fewer_roundings, is_sum_or_quotient, fuse_products},
 };
 
-/// Gives the field of each constraint the rules at sides that the stage has for the constraint's
-/// definition.
+/// Gives the field of each constraint the rules that the stage has for the constraint's definition
+/// at the sides.
 void add_walls_of_constraints(Expressions& expressions, const PassContext& context) {
     const System& system = context.program.system_of(context.stage);
     const auto& sides = context.program.stages[context.stage].definition_sides;
@@ -94,7 +95,7 @@ void add_walls_of_constraints(Expressions& expressions, const PassContext& conte
 }
 
 /// Copies the derivatives of the rates with respect to the cell's species into the graph of the
-/// rates. Nodes that both graphs contain are not duplicated. Copied nodes have the origins of the
+/// rates. Nodes that both graphs contain are not duplicated. Copied nodes keep the origins of the
 /// original formulas, so derivatives draw the same random numbers as the rates.
 void add_derivatives(ExpressionGraph& graph, const Program& program, std::uint32_t stage,
                      std::vector<NodeId>& roots) {

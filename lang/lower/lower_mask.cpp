@@ -1,12 +1,12 @@
 // Reads values at neighbours of a cell if some cells of the grid are outside the domain.
 //
-// The value of a neighbour outside the domain is replaced by the cell's value beyond the border: by
-// the cell's own value, as beyond a `noflux` side, or by the value that (bordered) gives
-// (border_pass.cpp). A diagonal neighbour is replaced by the value that a rectangular grid would
-// have there. If exactly one of the two cells between is inside, this is the value beyond the
-// border of that cell. If both are inside, so that the border turns a corner, it is the mean of the
-// values beyond the borders of both. If neither is inside, it is the cell's value beyond two
-// borders. Values of cells outside never affect cells inside.
+// The value of a neighbour outside the domain is replaced by the cell's value beyond the border.
+// This is the cell's own value, as beyond a `noflux` side, or the value that (bordered) gives
+// (border_pass.cpp). The value of a diagonal neighbour is replaced by the value that a rectangular
+// grid would have there. If exactly one of the two cells between is inside, this is the value
+// beyond the border of that cell. If both cells between are inside, so that the border turns a
+// corner, it is the mean of their values beyond the border. If neither is inside, it is the present
+// cell's value beyond two borders. Values of cells outside never affect cells inside.
 #include "lang/lower/lower_pass.h"
 
 namespace cascade::lowering {
@@ -31,18 +31,18 @@ ValueId NodeValues::chosen(Offset inside, ValueId value, ValueId otherwise) cons
     return builder_.select(assembly_.inside(inside), value, otherwise);
 }
 
-/// The value one step along an axis from the cell at `from`, or the value that replaces it.
+/// The value one step along an axis from the cell at `from`, or the value that takes its place.
 ValueId NodeValues::beside(NodeId id, Offset from, Offset step) const {
     const auto [inside, beyond, twice] = read_of(graph_, id);
     const ValueId value = number_at(inside, from + step);
     if (!graph_.has_mask() || graph_.is_uniform(id)) return value;
     const ValueId next = chosen(from + step, value, number_at(beyond, from));
     if (from.is_own() || beyond == inside) return next;
-    // If the cell at `from` is outside, the border is between it and the present cell.
+    // If the cell at `from` is outside, the border is between this cell and the present cell.
     return chosen(from, next, beside(id, from + step));
 }
 
-/// The value at an offset from the present cell, or the value that replaces it.
+/// The value at an offset from the present cell, or the value that takes its place.
 ValueId NodeValues::beside(NodeId id, Offset offset) const {
     const auto [inside, beyond, twice] = read_of(graph_, id);
     const ValueId value = number_at(inside, offset);

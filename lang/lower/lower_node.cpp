@@ -43,12 +43,12 @@ Value lower_call(KernelAssembly& assembly, const NodeInCell& in) {
             return {in.number(0), in.number(1), in.number(2)};
         default: break;
     }
-    if (node.function == Function::tensor) {  // The operands are its entries.
+    if (node.function == Function::tensor) {  // The operands of a tensor are its entries.
         Value entries{};
         for (std::size_t k = 0; k < node.operand_count; ++k) entries[k] = in.number(k);
         return entries;
     }
-    // `if` and `mix` of colours work channel by channel.
+    // The functions `if` and `mix` are applied to each channel of a colour.
     const std::size_t channels = node.type == ValueType::colour ? 3 : 1;
     Value value{};
     for (std::size_t channel = 0; channel < channels; ++channel) {
@@ -67,13 +67,15 @@ Value lower_call(KernelAssembly& assembly, const NodeInCell& in) {
 Value lower_node(KernelAssembly& assembly, const NodeInCell& in) {
     const Overloaded value{
         [&](double number) -> Value { return {assembly.builder().number(number)}; },
-        [](TextId) -> Value { return {}; },  // The node that reads the text needs no value of it.
+        // The node that reads the text uses only its id, so a text needs no value.
+        [](TextId) -> Value { return {}; },
         [&](ItemId item) -> Value {
             return {assembly.item({in.graph.stage(), item}, in.at)};
         },
         [&](StageItem item) -> Value { return {assembly.item(item, in.at)}; },
         [&](SensedItem sensed) -> Value {
-            // A uniform item of an earlier stage has the same value at the positions of all cells.
+            // If the item of an earlier stage is uniform, it has the same value at the positions of
+            // all cells.
             const bool is_number = in.graph.is_uniform(in.id);
             return {is_number ? assembly.item(sensed.item, in.at) : assembly.field(sensed, in.at)};
         },

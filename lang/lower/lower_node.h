@@ -9,10 +9,11 @@
 
 namespace cascade::lowering {
 
-/// A value in a cell: one number, the three numbers of a colour, or the three or six of a tensor.
+/// A value in a cell: one number, the three numbers of a colour, or the three or six entries of a
+/// tensor.
 using Value = std::array<ValueId, 6>;
 
-/// A node to evaluate in the cell at an offset from the present cell.
+/// A node that is evaluated in the cell at an offset from the present cell.
 struct NodeInCell {
     const PlanGraph& graph;
     NodeId id;
@@ -27,11 +28,11 @@ struct NodeInCell {
 /// The value of a node. The node must be neither an operator nor a vector.
 Value lower_node(KernelAssembly& assembly, const NodeInCell& node);
 
-/// For a node that is in a plane before the first pass (PlanGraph::is_plane): the plane from which
-/// it is read.
+/// The plane from which a node is read. The node must be in a plane before the first pass
+/// (PlanGraph::is_plane).
 PlaneSource plane_source(const PlanGraph& graph, NodeId id);
 
-// Lower particular kinds of calls.
+// The functions that lower particular kinds of calls.
 Value lower_palette(KernelAssembly& assembly, const NodeInCell& node);
 ValueId lower_shape(KernelAssembly& assembly, const NodeInCell& node);
 ValueId lower_draw(KernelAssembly& assembly, const NodeInCell& node);

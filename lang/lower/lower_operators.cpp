@@ -95,8 +95,8 @@ ValueId Stencils::over_links(const Node& node) {
     return scaled(builder_.link_flow({slot_of_plane(node.operands[0]), slot}), 0.5);
 }
 
-/// The difference that a row of lang/program/stencils.cpp describes; 0 along an axis that the grid
-/// does not have.
+/// The difference that a row of lang/program/stencils.cpp describes. 0 if the grid does not have
+/// the axis.
 ValueId Stencils::difference(NodeId operand, Difference kind, int first, int second) {
     const Taps taps = taps_of(kind, axes_, first, second);
     const double factor = 1 / taps.size(grid_.spacing);

@@ -1,4 +1,4 @@
-// Computes the values of a pass node by node, operands first.
+// Computes the values of a pass node by node. Operands come before the nodes that read them.
 #include "lang/lower/lower_pass.h"
 
 #include "core/check.h"
@@ -60,8 +60,8 @@ std::optional<ValueId> NodeValues::weighted(NodeId id, const Taps& taps, bool ke
         }
         if (std::abs(weight) != 1) {
             part = builder_.multiply(builder_.number(std::abs(weight)), part);
-            // Operations on planes round this product before they add it, so it must also be
-            // rounded here. Otherwise contraction would give other bits.
+            // Excluded from contraction, because operations on planes also round this product
+            // before they add it. Otherwise the two would give different bits.
             if (keeps_product) builder_.keep(part);
         }
         if (!sum) sum = weight > 0 ? part : builder_.apply(Op::negate, part);
@@ -92,12 +92,12 @@ void PassLowering::compute(NodeId id) {
         for_each_offset(values_.needs(id), [&](Offset offset) {
             const Value value = compute_at(id, offset);
             values_.slot(id, offset.number()) = value;
-            // Excluded from contraction, because the value is in a plane or may be computed again
-            // where it is read. All copies of it must have the same bits.
+            // Excluded from contraction, because the value is stored in a plane or may be computed
+            // again where it is read. All copies of the value must have the same bits.
             builder_.keep(value[0]);
         });
     }
-    // A step-invariant may be computed once by another kernel, so it must not be contracted here.
+    // Excluded from contraction, because another kernel may compute the step-invariant once.
     if (pass_.graph.is_step_invariant(id)) builder_.keep_from(first);
 }
 

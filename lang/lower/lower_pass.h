@@ -1,9 +1,9 @@
-// Lowers one pass: finds at which cells each node is needed, and emits the instructions (internal
-// to lowering).
+// Lowers a pass: finds in which cells each node is needed, and emits the instructions (internal to
+// lowering).
 //
-// pass_needs.cpp goes backwards through the nodes and finds the cells (for vectors, the faces) at
-// which each node is needed. lower_pass.cpp goes forwards and computes each node once at each of
-// these cells or faces.
+// pass_needs.cpp goes backwards through the nodes and finds the cells (for vectors, the faces) in
+// which each node is needed. lower_pass.cpp goes forwards and computes each node once in each of
+// these cells or at each of these faces.
 #pragma once
 
 #include "lang/lower/crossings.h"
@@ -18,14 +18,16 @@
 
 namespace cascade::lowering {
 
-/// The place where the result of each node is stored.
+/// Where the result of each node is stored.
 struct Storage {
-    IdVector<NodeId, TemporaryId> temporary;           ///< For nodes that a pass writes to a plane.
-    IdVector<NodeId, AggregateId> aggregate;           ///< For aggregates.
-    IdVector<NodeId, StepInvariantId> step_invariant;  ///< For nodes known before all passes.
+    /// For each node that a pass writes to a plane, the plane.
+    IdVector<NodeId, TemporaryId> temporary;
+    IdVector<NodeId, AggregateId> aggregate;  ///< For aggregates.
+    /// For each node that is known before all passes, its index.
+    IdVector<NodeId, StepInvariantId> step_invariant;
 };
 
-/// The planner's decisions, as seen by one pass.
+/// The planner's decisions, from the point of view of one pass.
 struct PassView {
     const PlanGraph& graph;
     const PassPlanner& planner;
@@ -38,8 +40,8 @@ struct PassView {
     bool is_plane_at(NodeId id, Offsets where) const {
         return planner.is_plane_in(id, pass) && (where == own_cell || !graph.is_open(id));
     }
-    /// Whether the node is read instead of computed: from its plane or, for an aggregate, as a
-    /// number.
+    /// Whether the node is read and not computed. It is read from its plane or, if it is an
+    /// aggregate, as a number.
     bool is_source(NodeId id, Offsets where) const {
         return is_aggregate(graph[id]) || planner.is_step_invariant(id) || is_plane_at(id, where);
     }
@@ -48,14 +50,14 @@ struct PassView {
         return !graph.is_uniform(id) && (planner.is_step_invariant(id) || graph.is_plane(id) ||
                                          (planner.is_plane_in(id, pass) && !graph.is_open(id)));
     }
-    /// The plane from which a node is read. Only if number() is nullopt.
+    /// The plane from which a node is read. Must be called only if number() is nullopt.
     PlaneSource plane(NodeId id) const;
     std::optional<UniformSource> number(NodeId id) const;
 };
 
 using Needs = IdVector<NodeId, std::uint32_t>;
-/// For each node, the set of offsets (Offsets) or, for vectors, of faces (by number) at which it
-/// must be computed so that the nodes `wanted` can be computed in the cell itself.
+/// For each node, where it must be computed so that the nodes `wanted` can be computed in the cell
+/// itself: a set of offsets (Offsets) or, for a vector, a set of faces (by number).
 Needs needs_of(const PassView& pass, std::span<const NodeId> wanted);
 
 /// The values that a pass computes in and around a cell.
@@ -64,7 +66,7 @@ public:
     NodeValues(const PlanGraph& graph, KernelAssembly& assembly, Needs needs);
 
     std::uint32_t needs(NodeId id) const { return needs_[id]; }
-    /// The memory of a node's value. `where` is the number of an offset or of a face.
+    /// The stored value of a node. `where` is the number of an offset or of a face.
     Value& slot(NodeId id, std::uint32_t where) { return values_[place(id, where)]; }
     const Value& at(NodeId id, Offset offset) const {
         return values_[place(id, graph_.is_uniform(id) ? Offset{}.number() : offset.number())];
@@ -72,14 +74,15 @@ public:
     ValueId number_at(NodeId id, Offset offset) const { return at(id, offset)[0]; }
     ValueId face(NodeId id, Face face) const { return values_[place(id, face.number())][0]; }
 
-    // Outside the domain, values of other cells take the place of missing values (lower_mask.cpp).
+    // The value of a node at an offset. If the cell at the offset is outside the domain, values of
+    // other cells replace it (lower_mask.cpp).
     ValueId beside(NodeId id, Offset offset) const;
     /// The value one step along an axis from the cell at `from`.
     ValueId beside(NodeId id, Offset from, Offset step) const;
     ValueId chosen(Offset inside, ValueId value, ValueId otherwise) const;
 
-    /// The weighted sum of a difference (lang/program/stencils.h), before the division. Empty if
-    /// `taps` is empty. Values with the same weight are added before the multiplication.
+    /// The weighted sum in a difference (lang/program/stencils.h), before the division. nullopt if
+    /// `taps` has no terms. Values with the same weight are added before the multiplication.
     /// `keeps_product` excludes the last product from contraction.
     std::optional<ValueId> weighted(NodeId id, const Taps& taps, bool keeps_product = false,
                                     Offset from = {}) const;
@@ -93,7 +96,7 @@ private:
     KernelAssembly& assembly_;
     KernelBuilder& builder_;
     Needs needs_;
-    IdVector<NodeId, std::uint32_t> first_;  ///< The index of each node's first value.
+    IdVector<NodeId, std::uint32_t> first_;  ///< The index of each node's first value in `values_`.
     std::vector<Value> values_;
 };
 
@@ -121,12 +124,13 @@ private:
     KernelBuilder& builder_;
     const NodeValues& values_;
     const Grid& grid_;
-    IdVector<NodeId, Crossing> crossings_;  ///< One for each node, empty until computed.
+    /// The facts about each node. Empty until they are needed.
+    IdVector<NodeId, Crossing> crossings_;
 };
 
 class PassLowering {
 public:
-    /// Computes these nodes in the present cell, and all nodes that they need.
+    /// Computes the nodes `wanted` in the present cell, and all nodes that they need.
     PassLowering(const PassView& pass, KernelAssembly& assembly, std::span<const NodeId> wanted);
 
     /// The value of a wanted node in the present cell.

@@ -1,5 +1,5 @@
-// Lowers functions of a cell's position and random functions: shapes, lattices of seeds, noise,
-// draws.
+// Lowers functions of a cell's position, such as shapes and lattices of seeds, and random
+// functions, such as noise and draws.
 #include "core/check.h"
 #include "core/hash.h"
 #include "lang/lower/lower_node.h"
@@ -14,9 +14,9 @@ namespace cascade::lowering {
 
 namespace {
 
-/// The key of one occurrence of a random function: FNV-1a of the seed, the stage, the formula's
-/// origin, and the number of the occurrence in the formula. Each of these four is written as text
-/// that ends with a line feed.
+/// The key for one occurrence of a random function. It is the FNV-1a hash of the seed, the stage,
+/// the formula's origin, and the number of the occurrence in the formula. Each of these four is
+/// written as a text that ends with a line feed.
 std::uint64_t random_key(std::uint32_t seed, std::string_view stage, std::string_view origin,
                          std::size_t occurrence) {
     std::uint64_t key = fnv1a(fmt::format("{}\n", seed));
@@ -25,7 +25,8 @@ std::uint64_t random_key(std::uint32_t seed, std::string_view stage, std::string
     return fnv1a(fmt::format("{}\n", occurrence), key);
 }
 
-/// The draw of a node. Every occurrence of a random function in a formula draws its own numbers.
+/// The random source of a node. Every occurrence of a random function in a formula draws its own
+/// numbers.
 Draw draw_of(KernelAssembly& assembly, const NodeInCell& in) {
     const auto& [formula, noise] = *in.graph.origin(in.id);
     const auto first = formula->nodes.begin(), last = first + in.graph.position(in.id).index() + 1;
@@ -62,8 +63,8 @@ ValueId lower_shape(KernelAssembly& assembly, const NodeInCell& in) {
 }
 
 /// Lowers draws. White noise in space and time has the variance strength² / (dt h^d) in a step of
-/// length dt, in cells of content h^d. So the variance of its integral over a given time and area
-/// depends neither on dt nor on h.
+/// length dt and in cells of content h^d. So the integral of the noise over a given time and area
+/// has a variance that depends neither on dt nor on h.
 ValueId lower_draw(KernelAssembly& assembly, const NodeInCell& in) {
     KernelBuilder& builder = assembly.builder();
     CellPlace place(assembly, in.at);

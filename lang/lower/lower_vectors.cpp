@@ -46,7 +46,7 @@ ValueId Fluxes::gradient(NodeId operand, Face face) const {
                           1 / (4 * grid_.spacing));
 }
 
-/// Computes a component of a vector at a face from components of its operands.
+/// Computes a component of a vector at a face from the components of its operands.
 struct Fluxes::AtFace {
     const Fluxes& own;
     Face where;

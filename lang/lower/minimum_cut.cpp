@@ -1,6 +1,6 @@
-// Increases the flow from one needed part after another until it is maximal. Nodes that a failed
-// search has reached do not lead to the sink. Later flows cannot enter them, so this never changes,
-// and no search visits them again.
+// Increases the flow from one needed part after another until it is maximal. If a search fails, the
+// nodes that it reached do not lead to the sink. Later flows cannot enter these nodes, so the nodes
+// never lead to the sink, and no search visits them again.
 #include "lang/lower/minimum_cut.h"
 
 #include <algorithm>
@@ -32,8 +32,8 @@ void MinimumCut::want(std::uint32_t part) {
     }
 }
 
-/// Increases the flow from a node to the sink. If this is impossible, marks all nodes that can be
-/// reached from the node and returns false.
+/// Increases the flow from a node to the sink. If this is impossible, returns false and marks all
+/// nodes that can be reached from the node.
 bool MinimumCut::augment(std::uint32_t from) {
     std::vector<bool> seen(edges_of_.size(), false);
     std::vector<std::uint32_t> came_by(edges_of_.size());

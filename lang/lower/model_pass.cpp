@@ -2,14 +2,14 @@
 // and columns.
 //
 // Operators become sums over links (ir/operations.def). A flux is given by the flow through each
-// link. Vectors are sums of gradients, each multiplied by a number, and div takes each term
-// separately: div(a * grad(e)) is lap(a, e), the sum over the links of w (a_i + a_j) / 2 (e_j -
-// e_i). A vector given by components is such a sum, too: vx grad(x) + vy grad(y) + vz grad(z). The
-// flow of this sum through a link is the mean of the vectors in the two cells, in the direction of
-// the straight line between the cells. A tensor times a vector is the sum of a part that is a
-// multiple of the vector and a part that is computed by components. But if the tensor does not
-// change and is multiplied by the gradient of a number that does, rates are sums with weights of
-// links that are computed once: lap(tensor_weights(…), e). spec/models.md has the formulas.
+// link. A vector is a sum of gradients, each multiplied by a number, and div is computed term by
+// term: div(a * grad(e)) is lap(a, e), the sum over the links of w (a_i + a_j) / 2 (e_j - e_i). A
+// vector given by components is such a sum, too: vx grad(x) + vy grad(y) + vz grad(z). The flow of
+// this sum through a link is the component, along the straight line between the two cells, of the
+// mean of their vectors. A tensor times a vector is the sum of a multiple of the vector and a part
+// that is computed by components. There is one exception: if the tensor does not change and is
+// multiplied by the gradient of a number that changes, the divergence is a sum over links whose
+// weights are computed once: lap(tensor_weights(…), e). spec/models.md has the formulas.
 #include "lang/lower/graph_passes.h"
 
 #include "core/check.h"
@@ -39,18 +39,20 @@ public:
             bool changes = changes_by_itself(node, context);
             for (const NodeId operand : node.reads()) changes = changes || changes_[operand];
             changes_.push_back(changes);
-            // The plans of a constraint read no step-invariants of the rates.
+            // With a constraint, tensors do not become weights, because the plans of a constraint
+            // read no step-invariants of the rates.
             if (solved_constraint(node)) can_weigh_ = false;
         }
     }
 
 private:
-    /// A gradient multiplied by a number, and before that by a tensor if there is one.
+    /// A gradient multiplied by a number. If there is a tensor, the gradient is first multiplied by
+    /// the tensor.
     struct Gradient {
         Term of;  ///< The number whose gradient it is.
         Term factor;
         bool changes = true;  ///< Whether `of` may differ from step to step.
-        /// A tensor of the new graph that does not change. If there is one, `factor` is the same in
+        /// A tensor of the new graph that does not change. If it is set, `factor` is the same in
         /// all cells.
         std::optional<NodeId> tensor = {};
     };
@@ -60,13 +62,14 @@ private:
     static constexpr std::array places{ModelPlane::place_x, ModelPlane::place_y,
                                        ModelPlane::place_z};
 
-    /// Computes the gradients of a vector from the gradients of its operands, which are nodes of
-    /// the old graph.
+    /// Computes the gradients of a vector from the gradients of its operands. The operands are
+    /// nodes of the old graph.
     struct Rules {
         ModelOperators& pass;
 
         const Gradients& of(NodeId vector) const { return pass.gradients_.at(vector); }
-        /// The vector in a form in which it can be multiplied by a number.
+        /// The gradients of a vector, changed if necessary so that the vector can be multiplied by
+        /// the number `by`.
         Gradients before(NodeId by, NodeId vector) const {
             return pass.is_uniform_[by] ? of(vector) : pass.without_tensors(of(vector));
         }
@@ -116,8 +119,8 @@ private:
         return gradients;
     }
 
-    /// Whether a rate that reads this tensor times this vector can use weights of links that are
-    /// computed once.
+    /// Whether a rate that reads this tensor times this vector can be computed with weights of
+    /// links that are computed once.
     bool can_weigh(NodeId tensor, const Gradients& vector) const {
         const auto operands = old()[tensor].reads();
         return can_weigh_ &&
@@ -127,7 +130,8 @@ private:
                });
     }
 
-    /// The same vector without tensors: gradients with a tensor are multiplied by it in the cells.
+    /// The same vector as a sum of gradients without tensors: each tensor is multiplied by its
+    /// gradient in the cells.
     Gradients without_tensors(const Gradients& vector) {
         Gradients sum;
         for (const Gradient& each : vector) {
@@ -203,8 +207,8 @@ private:
         if (function == Function::subtract) sum.back().factor = -add.factor;
     }
 
-    /// The weights that tensor(a1, a2, theta) gives to links. The tensor's matrix is γ + v vᵀ,
-    /// where γ is the smaller of a1² and a2², and v points in the direction of the larger.
+    /// The weights of links for tensor(a1, a2, theta). The tensor's matrix is γ + v vᵀ, where γ is
+    /// the smaller of a1² and a2², and v points in the direction of the larger.
     Term weights_of(NodeId tensor) {
         const auto operand = [&](std::size_t n) { return term(graph()[tensor].operands[n]); };
         const Term first = square(operand(0)), second = square(operand(1)), theta = operand(2);
@@ -234,16 +238,18 @@ private:
         }
         if (node.type == ValueType::vector) {
             gradients_.emplace(at(), vector_by(Rules{*this}, old(), old()[at()]));
-            return NodeId{};  // Only div reads vectors.
+            return NodeId{};  // The new graph needs no node, because only div reads vectors.
         }
         if (node.calls(Function::div)) return divergence(gradients_.at(old()[at()].operands[0]));
         return keep(node);
     }
 
     // Facts about nodes of the old graph.
-    IdVector<NodeId, bool> is_uniform_, changes_;      ///< `changes_`: from step to step.
-    std::unordered_map<NodeId, Gradients> gradients_;  ///< For each vector.
-    bool can_weigh_ = false;  ///< Whether tensors that do not change become weights of links.
+
+    /// `changes_` says whether a node differs from step to step.
+    IdVector<NodeId, bool> is_uniform_, changes_;
+    std::unordered_map<NodeId, Gradients> gradients_;  ///< The gradients of each vector.
+    bool can_weigh_ = false;  ///< Whether tensors that do not change may become weights of links.
 };
 
 }  // namespace

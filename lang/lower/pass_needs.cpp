@@ -1,4 +1,4 @@
-// Finds the cells and faces at which a pass needs the operands of its nodes. Visits each node
+// Finds the cells and faces in which a pass needs the operands of its nodes. Each node is visited
 // before its operands.
 #include "lang/lower/lower_pass.h"
 #include "lang/program/vector_functions.h"
@@ -20,9 +20,9 @@ public:
         for (const NodeId id : wanted) need(id, own_cell);
         for (const NodeId id : needs_.ids_backwards()) {
             if (needs_[id] == 0) continue;
-            // A uniform value is computed once.
+            // A uniform value is computed once, and only for the cell itself.
             if (graph_.is_uniform(id) && !is_vector(graph_[id])) needs_[id] = own_cell;
-            // An open node may be read from its plane in the cell itself and recomputed at
+            // An open node may be read from its plane in the cell itself, and be recomputed at
             // neighbours.
             const bool is_read = pass_.is_source(id, own_cell) && !is_vector(graph_[id]);
             const std::uint32_t computed = is_read ? needs_[id] & ~own_cell : needs_[id];
@@ -34,8 +34,8 @@ public:
 private:
     void need(NodeId id, std::uint32_t where) { needs_[id] |= where; }
 
-    /// Marks a node as needed at neighbours, and at cells that replace neighbours outside the
-    /// domain.
+    /// Marks a node as needed at neighbours, and at the cells that stand in for neighbours outside
+    /// the domain.
     void need_beside(NodeId id, Offsets offsets) {
         need(id, planner_.reach(offsets));
         const Node& node = graph_[id];
@@ -81,8 +81,8 @@ private:
         need_beside(last, offsets_of(node, planner_.axes()));
     }
 
-    /// Marks the values that a component of a vector needs at a face: numbers in the two cells
-    /// beside the face, and vectors at the face itself.
+    /// Marks what a component of a vector needs at a face: numbers in the two cells beside the
+    /// face, and vectors at the face itself.
     struct AtFace {
         NeedFinder& own;
         Face where;

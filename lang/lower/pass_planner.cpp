@@ -57,8 +57,8 @@ void PassPlanner::mark_needed(std::span<const NodeId> roots) {
     }
 }
 
-/// Whether computing the node at this number of neighbours would cost more than writing and reading
-/// a plane. Stops visiting nodes once the answer is known.
+/// Whether computing the node at `places` neighbours would cost more than writing and reading a
+/// plane. Stops visiting nodes once the answer is known.
 bool PassPlanner::is_expensive(NodeId id, std::uint32_t places) const {
     std::uint32_t cost = 0;
     std::vector<NodeId> seen, open{id};
@@ -86,7 +86,7 @@ void PassPlanner::decide(NodeId id) {
     }
     const NodeId last = node.reads().back();
     if (solved_constraint(node)) {
-        written_[id] = true;  // Computed before the first pass.
+        written_[id] = true;  // The node is computed before the first pass.
         return;
     }
     if (is_aggregate(node) || is_nonlocal(node)) {
@@ -102,7 +102,7 @@ void PassPlanner::decide(NodeId id) {
         provide(last, reach(offsets_of(node, axes_)) & ~own_cell, id);
     } else if (differs && (node.type == ValueType::vector || function == Function::div) &&
                !graph_.is_linked()) {
-        // Vectors at faces need their operands in the cells on both sides of a face.
+        // The operands of a vector at a face are needed in the cells on both sides of the face.
         for (const NodeId operand : node.reads()) {
             if (is_number(graph_[operand])) {
                 provide(operand, crosswise(axes_) & ~own_cell, id);
@@ -116,15 +116,16 @@ void PassPlanner::decide(NodeId id) {
     decide_own(id);
 }
 
-/// Plans to store an operand in a plane, because its reader needs the whole plane. Does nothing if
-/// the operand is already in a plane.
+/// Plans to store an operand in a plane because `reader` needs the whole plane. Does nothing if the
+/// operand is already in a plane.
 void PassPlanner::write_whole(NodeId operand, NodeId reader) {
     if (is_plane(operand) || written_[operand]) return;
     choices_.push_back({operand, reader, 0, true, true, false});
     written_[operand] = true;
 }
 
-/// Finds the first pass in which the values of a node that is computed from its operands are known.
+/// Finds the first pass in which the values of a node are known. The node is computed from its
+/// operands.
 void PassPlanner::decide_own(NodeId id) {
     const Node& node = graph_[id];
     const Function function = node.function;
@@ -140,8 +141,8 @@ void PassPlanner::decide_own(NodeId id) {
         const bool is_moved =
             reads_beside && (is_vector || k + 1 == node.operand_count || graph_.is_linked());
         pass_[id] = std::max(pass_[id], pass_[operand]);
-        // The planes for an open node are determined where the node is read, because more nodes may
-        // have been written by then.
+        // For an open node, the planes are chosen later, where the node is read, because more nodes
+        // may have been written by then.
         if (!graph_.is_open(id) && !graph_.is_open(operand)) {
             beside_[id] = std::max(beside_[id], pass_beside(operand));
         }
@@ -153,6 +154,7 @@ void PassPlanner::decide_own(NodeId id) {
 }
 
 /// Calls visit(node) for the closed nodes from which an open node is recomputed at neighbours.
+/// Closed nodes are nodes that are not open.
 template <typename Visit>
 void PassPlanner::for_each_closed(NodeId open, const Visit& visit) const {
     IdVector<NodeId, bool> seen(graph_.size(), false);
@@ -175,8 +177,8 @@ void PassPlanner::for_each_closed(NodeId open, const Visit& visit) const {
 std::uint32_t PassPlanner::pass_beside(NodeId operand) const {
     const Node& node = graph_[operand];
     std::uint32_t pass = 0;
-    if (node.type == ValueType::tensor) {  // The tensor's entries may have been written for another
-                                           // reader.
+    // Looks at each entry of the tensor, because entries may have been written for another reader.
+    if (node.type == ValueType::tensor) {
         for (const NodeId entry : node.reads()) {
             pass = std::max(pass, pass_beside(entry));
         }
@@ -212,15 +214,15 @@ void PassPlanner::provide(NodeId operand, Offsets offsets, NodeId reader) {
     choices_.push_back(choice);
 }
 
-/// Provides an operand of a sum over links, which reads it from a plane.
+/// Writes an operand of a sum over links to a plane, from which the sum reads it.
 void PassPlanner::provide_over_links(NodeId operand, NodeId reader) {
     if (graph_.is_uniform(operand) || is_plane(operand)) return;
     written_[operand] = true;
     choices_.push_back({operand, reader, 0, true, true, false});
 }
 
-/// Provides an open operand at neighbours. At the neighbours it is computed from nodes that are, or
-/// can be, in planes.
+/// Provides an open operand at neighbours, where it is recomputed from nodes that are, or can be,
+/// in planes.
 void PassPlanner::provide_open(NodeId operand, Offsets offsets, NodeId reader) {
     const auto places = static_cast<std::uint32_t>(std::popcount(offsets));
     for_each_closed(operand, [&](NodeId id) { provide(id, offsets, reader); });

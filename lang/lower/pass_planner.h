@@ -12,14 +12,14 @@
 
 namespace cascade::lowering {
 
-/// The cells whose values may be read in place of cells at these offsets that are outside the
-/// domain (lower_mask.cpp): the present cell and, for a diagonal neighbour, also the two cells
-/// between them.
+/// The cells whose values may be read in place of the cells at `offsets`, if the latter are outside
+/// the domain (lower_mask.cpp): the present cell and, for a diagonal neighbour, also the two cells
+/// between.
 Offsets stand_ins(Offsets offsets);
 
-/// A face between two cells, and a component of a vector at this face. The face is between cell
-/// `cell()` and the next cell along `axis`. It comes after the present cell if `side` is 0, and
-/// before the present cell if `side` is 1.
+/// A face between two cells, and a component of a vector at this face. Along `axis`, the face is
+/// between cell `cell()` and cell `next()`. If `side` is 0, the face comes after the present cell,
+/// and if `side` is 1, before it.
 struct Face {
     int axis = 0;
     int component = 0;
@@ -40,11 +40,11 @@ struct Face {
 /// The approximate number of kernel operations that compute a node from its operands.
 int operations_of(const Node& node);
 
-/// In the time of this number of operations per cell, a core writes a plane and reads it again,
-/// which moves about twelve bytes per cell.
+/// Writing a plane and reading it again takes a core as long as this number of operations per cell.
+/// It moves about twelve bytes per cell.
 inline constexpr int operations_of_writing = 40;
-/// In the time of this number of operations per cell, a core reads a plane, which moves a third as
-/// many bytes.
+/// Reading a plane takes a core as long as this number of operations per cell. It moves a third of
+/// the bytes.
 inline constexpr int operations_of_reading = operations_of_writing / 3;
 
 /// The decisions about all nodes of a graph.
@@ -64,25 +64,28 @@ public:
     /// The first pass that can compute the node in the cell itself. A written node is computed in
     /// this pass, and a nonlocal node directly before this pass.
     std::uint32_t pass_of(NodeId node) const { return pass_[node]; }
-    /// Whether the node is read from a plane in `pass`. Only later passes can read a plane that a
-    /// pass writes. The plane of a nonlocal node is computed directly before a pass, which can
-    /// already read it.
+    /// Whether the node can be read from a plane in `pass`. A plane that a pass writes can be read
+    /// only in later passes. The plane of a nonlocal node is computed directly before a pass, and
+    /// can be read in that pass.
     bool is_plane_in(NodeId node, std::uint32_t pass) const {
         return written_[node] && first_reader(node) <= pass;
     }
-    /// The way in which an operand is provided at the neighbours that its reader needs.
+    /// How an operand is provided at the neighbours at which its reader needs it.
     struct OperandChoice {
         NodeId operand, reader;
-        std::uint32_t places = 0;  ///< The largest number of neighbours at which the operand is
-                                   ///< needed.
-        bool is_written = false;  ///< True: read from a plane. False: recomputed at the neighbours.
-        bool is_forced = false;   ///< Whether the operand cannot be recomputed.
-        bool is_open = false;     ///< Whether the operand must be recomputed (PlanGraph::is_open).
+        /// The largest number of neighbours at which the operand is needed.
+        std::uint32_t places = 0;
+        /// Whether the operand is read from a plane. If not, it is recomputed at the neighbours.
+        bool is_written = false;
+        /// Whether the operand must be read from a plane, because it cannot be recomputed.
+        bool is_forced = false;
+        bool is_open = false;  ///< Whether the operand must be recomputed (PlanGraph::is_open).
     };
-    /// All operands that vary and are not in planes from the start, in the order of their readers.
+    /// The choices for all operands that vary and are not in planes from the start, in the order of
+    /// their readers.
     const std::vector<OperandChoice>& choices() const { return choices_; }
     const GridAxes& axes() const { return axes_; }
-    /// The offsets at which an operand must be available if it is read at `offsets`.
+    /// The offsets at which an operand must be available if a node reads it at `offsets`.
     Offsets reach(Offsets offsets) const {
         return graph_.has_mask() ? offsets | stand_ins(offsets) : offsets;
     }

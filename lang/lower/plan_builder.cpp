@@ -1,4 +1,4 @@
-// Builds the passes of a plan, their targets and temporaries.
+// Builds the passes of a plan, and the targets and temporaries of each pass.
 #include "lang/lower/plan_builder.h"
 
 #include "ir/contraction.h"
@@ -19,7 +19,7 @@ namespace cascade::lowering {
 
 namespace {
 
-/// The plan for a formula of a convolution's kernel, whose cells represent lags.
+/// The plan for a formula of a convolution's kernel. In this plan, each cell represents a lag.
 std::shared_ptr<const StepPlan> plan_of_kernel(const PlanGraph& graph, const Formula& formula) {
     const std::array only{&formula};
     const PassContext context{graph.program(), graph.stage(), Extent::grid};
@@ -46,13 +46,14 @@ void for_each_read(Pass& pass, const Visit& visit) {
     for (PlaneSource& source : pass.bound.fields) visit(source);
 }
 
-// Constraints. The linear part of an expression is found node by node: it is a sum of linear parts,
-// or an operator applied to a linear part. Values that do not depend on the unknown are computed
-// once for each solution.
+// Plans of constraints. The linear part of an expression is found node by node. It is a sum of
+// linear parts, or an operator applied to a linear part. Values that do not depend on the unknown
+// are computed once for each solution.
 
 using LinearParts = IdVector<NodeId, std::optional<NodeId>>;
 
-/// Adds the linear part of a node to the graph. Empty if the node does not depend on the unknown.
+/// Adds the linear part of a node to the graph, and returns it. nullopt if the node does not depend
+/// on the unknown.
 std::optional<NodeId> linear_part(ExpressionGraph& graph, NodeId id, const LinearParts& parts) {
     Node node = graph[id];
     if (node.is<Unknown>()) return id;
@@ -72,13 +73,13 @@ std::optional<NodeId> linear_part(ExpressionGraph& graph, NodeId id, const Linea
             operand = *parts[operand];
         } else if (is_jointly_linear(node.function) &&
                    is_linear_in(node.function, k, node.operand_count)) {
-            operand = zero;  // Terms without the unknown do not contribute.
+            operand = zero;  // Terms that do not contain the unknown are left out.
         }
     }
     return graph.add(node);
 }
 
-/// The linear part of `root`, as a separate graph.
+/// The linear part of `root`, in a separate graph.
 Expressions linear_part(const Expressions& from, NodeId root) {
     Expressions linear = from;
     LinearParts parts;
@@ -89,7 +90,7 @@ Expressions linear_part(const Expressions& from, NodeId root) {
     return linear;
 }
 
-/// The largest nodes that vary, do not depend on the unknown, and are not in a plane.
+/// The largest expressions that vary, do not depend on the unknown, and are not in a plane.
 std::vector<NodeId> constant_parts(const PlanGraph& graph) {
     IdVector<NodeId, bool> depends, needed(graph.size(), false);
     for (const NodeId id : graph.ids()) {
@@ -110,7 +111,7 @@ std::vector<NodeId> constant_parts(const PlanGraph& graph) {
     return parts;
 }
 
-/// A plan for values that are 0 outside the mask.
+/// A plan that computes the values `wanted`, which are 0 outside the mask.
 std::shared_ptr<const StepPlan> plan_of(const PlanGraph& graph, std::span<const NodeId> wanted,
                                         std::span<const NodeId> known) {
     PlanBuilder builder({graph, wanted, {}, false, {}, known});
@@ -127,8 +128,8 @@ std::shared_ptr<const StepPlan> plan_of(const PlanGraph& graph, std::span<const 
     return std::make_shared<const StepPlan>(std::move(plan));
 }
 
-/// Plans the search for the field that a constraint determines. The checker ensures that the
-/// operand of `solved` is linear in the unknown field.
+/// Plans how the field that a constraint determines is found. The checker ensures that the operand
+/// of `solved` is linear in the unknown field.
 Solve plan_of_constraint(const PlanGraph& graph, NodeId solved, TemporaryId target) {
     const Node& node = graph[solved];
     const NodeId root = node.operands[0];
@@ -206,7 +207,7 @@ void PlanBuilder::lower(std::uint32_t pass) {
         result(name.empty() ? fmt::format("(temporary {})", target.index()) : name, value(id)[0]);
         plan_.passes[pass].targets.push_back({target, false, graph_.boundary(id), graph_.wall(id)});
     }
-    // Nonlocal nodes may read a whole plane that any earlier pass has written.
+    // A nonlocal node may read whole planes that any earlier pass has written.
     const PassView after{graph_, planner_, storage_, planner_.pass_count()};
     for (const NodeId id : nonlocal_[pass]) {
         if (solved_constraint(graph_[id])) {
@@ -246,8 +247,8 @@ StepPlan PlanBuilder::finish() && {
     return std::move(plan_);
 }
 
-/// Numbers the planes of temporaries. After the last pass that reads a temporary, the temporary's
-/// plane is reused.
+/// Numbers the planes of temporaries. After the last pass that reads a temporary, its plane is used
+/// for other temporaries.
 void PlanBuilder::share_temporaries() {
     IdVector<TemporaryId, std::size_t> last_read(plan_.temporaries, 0);
     for (std::size_t pass = 0; pass < plan_.passes.size(); ++pass) {

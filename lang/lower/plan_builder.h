@@ -13,21 +13,21 @@ namespace cascade::lowering {
 
 struct PlanRequest {
     const PlanGraph& graph;
-    std::span<const NodeId> wanted;  ///< The nodes from which the results are computed, in the cell
-                                     ///< itself.
+    /// The nodes whose values in the cell itself give the results.
+    std::span<const NodeId> wanted;
     PlanOptions options;
     bool frozen_is_mask = false;
     /// The species that take the first field slots of the last pass.
     std::span<const ItemId> first_slots = {};
     /// The nodes that are known before the first pass, in the order of their step-invariant ids.
     std::span<const NodeId> step_invariants = {};
-    /// Whether products and sums in operators and functions are fused, which takes fewer roundings
-    /// (fuse_products()).
+    /// Whether products and sums in operators and functions are fused, so that they are rounded
+    /// less often (fuse_products()).
     bool contracts = false;
 };
 
-/// Plans and lowers the passes. The caller computes results from the wanted values and adds them to
-/// the last pass, which stays open until then. finish() completes the plan.
+/// Plans and lowers the passes. The last pass stays open: the caller computes results from the
+/// wanted values and adds them to this pass. finish() completes the plan.
 class PlanBuilder {
 public:
     explicit PlanBuilder(const PlanRequest& request);
@@ -37,7 +37,7 @@ public:
     const Value& value(NodeId id) const { return values_->value(id); }
     void result(const std::string& name, ValueId value) { last_->builder().result(name, value); }
 
-    /// Completes the plan. Temporaries that are needed at different times share a plane.
+    /// Completes the plan. Temporaries that are not needed at the same time share a plane.
     StepPlan finish() &&;
 
 private:
@@ -50,17 +50,17 @@ private:
     const PlanGraph& graph_;
     PassPlanner planner_;
     Storage storage_;
-    std::vector<std::vector<NodeId>> written_;   ///< For each pass, the nodes that it writes.
-    std::vector<std::vector<NodeId>> nonlocal_;  ///< For each pass, the nodes that are computed
-                                                 ///< directly before it.
+    std::vector<std::vector<NodeId>> written_;  ///< For each pass, the nodes that it writes.
+    /// For each pass, the nodes that are computed directly before it.
+    std::vector<std::vector<NodeId>> nonlocal_;
     std::vector<NodeId> aggregates_;
     std::unique_ptr<KernelAssembly> last_;  ///< The kernel of the open pass.
-    std::unique_ptr<PassLowering> values_;  ///< The values in that kernel.
+    std::unique_ptr<PassLowering> values_;  ///< The values in the kernel of the open pass.
     StepPlan plan_;
 };
 
-/// Describes the passes and the reasons for them: one line for the plan, one for each pass, and one
-/// for each decision.
+/// Describes the passes and the reasons for them, with one line for the plan, one line for each
+/// pass, and one line for each decision.
 std::string describe(const PlanGraph& graph, const PassPlanner& planner, const StepPlan& plan);
 
 }  // namespace cascade::lowering

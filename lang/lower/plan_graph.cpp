@@ -23,14 +23,14 @@ Axes3 beyond_of(const Boundaries& boundary) {
     return {beyond_of(boundary.x), beyond_of(boundary.y), beyond_of(boundary.z)};
 }
 
-/// The rules for the values beyond the two sides of an axis. Either both sides are periodic or
-/// neither is.
+/// How values beyond the two sides of an axis are found. Either both sides are periodic or neither
+/// is.
 Beyond beyond_of(SideKind first, SideKind second) {
     if (takes_value(first) || takes_value(second)) return Beyond::itself;
     return first == SideKind::periodic ? Beyond::periodic : Beyond::mirrored;
 }
 
-/// The rules for the values of an item beyond the sides of each axis. The item varies by cell.
+/// How values of an item beyond the sides of each axis are found. The item must vary by cell.
 Axes3 beyond_of_item(const Program& program, std::uint32_t stage, ItemId item) {
     const SideKinds sides = side_kinds(program, stage, item);
     Axes3 beyond{};
@@ -40,7 +40,8 @@ Axes3 beyond_of_item(const Program& program, std::uint32_t stage, ItemId item) {
     return beyond;
 }
 
-/// The rules for the values of a function of two operands beyond the sides of an axis.
+/// How values of a function of two operands beyond the sides of an axis are found, given the same
+/// for each operand.
 Beyond together(Beyond a, Beyond b) {
     if (a == Beyond::anything || a == b) return b;
     return b == Beyond::anything ? a : Beyond::itself;
@@ -73,8 +74,8 @@ PlanGraph::PlanGraph(Expressions expressions, const PassContext& context, Draws 
     names_.insert(expressions_.names.begin(), expressions_.names.end());
 }
 
-/// Whether the node has the same value in all steps. Cells that crawl change their positions in
-/// each step, and their number changes.
+/// Whether the node has the same value in all steps. The positions of crawling cells change in each
+/// step, and so does their number.
 bool PlanGraph::is_step_invariant(const Node& node, bool is_uniform, Draws draws) const {
     if (context_.is_tissue() && !is_uniform) return false;
     const bool is_drawn_once = is_draw(node) && draws == Draws::once;
@@ -100,13 +101,13 @@ std::array<Beyond, 3> PlanGraph::beyond(NodeId id, bool is_uniform) const {
             for (const NodeId operand : node.reads()) {
                 beyond[axis] = together(beyond[axis], facts_[operand].beyond[axis]);
             }
-            // Operators, shapes, draws and files are periodic if all their operands are.
+            // Operators, shapes, draws and files are periodic if all their operands are periodic.
             if (!varies_by_cell(node.function)) continue;
             if (beyond[axis] == Beyond::anything) beyond[axis] = usual[axis];
             if (beyond[axis] == Beyond::itself) beyond[axis] = Beyond::mirrored;
         }
     }
-    // A definition with its own rules at sides is in a plane, like a species.
+    // A definition with its own rules at sides is stored in a plane, like a species.
     if (const DefinitionSides* own = sides(id)) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             beyond[axis] = beyond_of(own->sides[2 * axis].kind, own->sides[2 * axis + 1].kind);

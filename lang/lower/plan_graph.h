@@ -1,6 +1,7 @@
 // The expression graph of a plan, with facts about each node (internal to lowering).
 //
-// lang/lower/pass_planner.h then decides where and how often each node is computed.
+// After the graph has been made, lang/lower/pass_planner.h decides where and how often each node is
+// computed.
 #pragma once
 
 #include "lang/lower/graph_passes.h"
@@ -14,13 +15,13 @@
 
 namespace cascade::lowering {
 
-/// The value that a node has beyond the two sides of an axis, where operators read it at
-/// neighbours.
+/// Which value operators read for a node at a neighbour that lies beyond the sides of an axis.
 enum class Beyond : std::uint8_t {
-    anything,  ///< No value is needed: all cells have the same value, or the axis has one cell.
+    /// Any value will do, because all cells have the same value, or because the axis has one cell.
+    anything,
     periodic,  ///< The value in the opposite cell of the axis.
     mirrored,  ///< The value in the cell beside the side.
-    itself,    ///< Another value: given by a species' rule, or computed from operands.
+    itself,    ///< Another value. A species' rule gives it, or it is computed from operands.
 };
 
 using SideKinds = std::array<SideKind, side_count>;
@@ -29,8 +30,8 @@ using SideKinds = std::array<SideKind, side_count>;
 /// have the rules of the domain.
 SideKinds side_kinds(const Program& program, std::uint32_t stage, ItemId item);
 
-/// The time when random numbers are drawn: in every step or, for a value at a side, once when a
-/// stage starts.
+/// When random numbers are drawn: in every step, or once when a stage starts, as for a value at a
+/// side.
 enum class Draws : std::uint8_t { every_step, once };
 
 class PlanGraph {
@@ -49,8 +50,8 @@ public:
     /// Whether the node has the same value in all steps of the stage.
     bool is_step_invariant(NodeId id) const { return facts_[id].is_step_invariant; }
     /// Whether the node's value beyond some side is neither the value of the opposite cell nor the
-    /// value of the cell beside the side. The plane of such an open node has no halo, and its
-    /// values beyond the side are recomputed.
+    /// value of the cell beside the side. Such a node is called open. Its plane has no halo, and
+    /// its values beyond the side are recomputed.
     bool is_open(NodeId id) const;
     /// The rules that fill the halo of the node's plane. Not for open nodes.
     Boundaries boundary(NodeId id) const;
@@ -59,11 +60,11 @@ public:
     bool is_plane(NodeId id) const;
     /// The name of the definition or rate whose value this node is; "" for other nodes.
     const std::string& name(NodeId id) const;
-    /// If the node is the value of a definition that has its own rules at sides: these rules, and
-    /// their index in Stage::definition_sides. Empty for other nodes.
+    /// The rules at sides of the definition whose value the node is. nullptr if the node is not the
+    /// value of a definition with its own rules.
     const DefinitionSides* sides(NodeId id) const;
     std::optional<std::size_t> wall(NodeId id) const;
-    /// The place of the node in the script. Null if a pass made the node.
+    /// Where the node is in the script. Null if a pass made the node.
     const Origin* origin(NodeId id) const;
     NodeId position(NodeId id) const { return expressions_.graph.written(id).position; }
 
@@ -71,8 +72,8 @@ public:
     const Program& program() const { return context_.program; }
     std::uint32_t stage() const { return context_.stage; }
     bool has_mask() const { return context_.has_mask(); }
-    /// Whether cells read neighbours over links. Operators then read only planes, and a `lap` with
-    /// two operands means div(first * grad(second)).
+    /// Whether cells read neighbours over links. If so, operators read only planes, and a `lap`
+    /// with two operands means div(first * grad(second)).
     bool is_linked() const { return context_.has_links(); }
     const PassContext& context() const { return context_; }
     const Grid& grid() const { return context_.grid(); }
@@ -80,7 +81,7 @@ public:
 private:
     struct Facts {
         bool is_uniform = false, is_step_invariant = false;
-        std::array<Beyond, 3> beyond{};  ///< For each axis.
+        std::array<Beyond, 3> beyond{};  ///< The value beyond the sides of each axis.
     };
     bool is_step_invariant(const Node& node, bool is_uniform, Draws draws) const;
     std::array<Beyond, 3> beyond(NodeId id, bool is_uniform) const;

@@ -13,25 +13,27 @@
 
 namespace cascade {
 
-using StepInvariantId = Id<struct StepInvariantTag>;  ///< A result of plan_step_invariants().
-using CoefficientId = Id<struct CoefficientTag>;      ///< A coefficient of a sweep.
+/// The index of a result of plan_step_invariants().
+using StepInvariantId = Id<struct StepInvariantTag>;
+using CoefficientId = Id<struct CoefficientTag>;  ///< The index of a coefficient of a sweep.
 
-/// A species in an input of a sweep other than input 0. Input 0 contains the items of the stage.
+/// A species in one of a sweep's inputs, which is not input 0. Input 0 contains the items of the
+/// stage.
 struct SweepInput {
     std::uint32_t input = 0;
     ItemId item;
     bool operator==(const SweepInput&) const = default;
 };
 
-/// A plane that a function such as `field` reads by a name.
+/// A plane that a function such as `field` reads and that a text in the script names.
 struct NamedPlane {
     Function function = Function::field;
     TextId text;
-    std::uint32_t reading = 0;  ///< The index of a FileReading in Literals.
+    std::uint32_t reading = 0;  ///< The index of the FileReading in Literals.
     auto operator<=>(const NamedPlane&) const = default;
 };
 
-/// Words whose bits mark the neighbouring cells that are inside the mask.
+/// A plane of words. Each bit of a word says whether one neighbouring cell is inside the mask.
 struct Neighbourhood {
     bool operator==(const Neighbourhood&) const = default;
 };
@@ -39,8 +41,8 @@ struct Neighbourhood {
 /// Numbers that the time loop provides when it evaluates rates.
 enum class TimeValue : std::uint8_t {
     step,    ///< The number of steps that the stage completed before this step.
-    draw,    ///< The word that identifies the step in random numbers (ir/draw_of_step.h).
-    time,    ///< The stage's t.
+    draw,    ///< The word by which random numbers depend on the step (ir/draw_of_step.h).
+    time,    ///< The time t of the stage.
     length,  ///< The length of the step.
 };
 inline constexpr std::array<std::string_view, 4> time_value_names{"step", "draw", "t", "time step"};

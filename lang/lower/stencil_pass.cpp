@@ -1,10 +1,10 @@
 // Writes out operators for the stencils of the domain (spec/domain.md, "Stencils").
 //
-// The stencils are made of differences between adjacent cells, so they need no wider halo. In this
-// comment, δ² is the second difference along an axis, divided by h². The isotropic Laplacian of
-// nine or nineteen cells is lap + h²/6 Σ δ²δ², where the sum is over the pairs of axes. Its error
-// is h²/12 lap(lap(e)). The Laplacian of fourth order is Σ (δ² − h²/12 δ²δ²), the wide second
-// difference along each axis. The first derivative of fourth order is (E − W)/2h (1 − h²/6 δ²).
+// The stencils are made of differences between adjacent cells, so they need no wider halo. Here, δ²
+// is the second difference along an axis, divided by h². The isotropic Laplacian of nine or
+// nineteen cells is lap + h²/6 Σ δ²δ², with the sum over all pairs of axes. Its error is h²/12
+// lap(lap(e)). The Laplacian of fourth order is Σ (δ² − h²/12 δ²δ²), the wide second difference
+// along each axis. The first derivative of fourth order is (E − W)/2h (1 − h²/6 δ²).
 #include "lang/lower/graph_passes.h"
 
 #include "core/check.h"
@@ -16,7 +16,7 @@ namespace cascade::lowering {
 
 namespace {
 
-/// The function that computes a difference along the given axes.
+/// The function that computes a difference along the axes `first` and `second`.
 Function function_of(Difference difference, int first, int second) {
     for (std::size_t k = 0; k < function_count; ++k) {
         const auto own = difference_of(static_cast<Function>(k));

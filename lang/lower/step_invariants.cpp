@@ -1,7 +1,7 @@
-// Walks over the graph three times. The first walk visits readers before operands and finds the
-// cells at which nodes are needed. The second walk visits operands before readers and builds the
-// network of costs (minimum_cut.h). The third visits readers before operands and finds the values
-// that a step needs.
+// Walks over the graph three times. The first walk visits readers before operands and finds how
+// many cells need each node. The second walk visits operands before readers and builds the network
+// of costs (minimum_cut.h). The third walk visits readers before operands and finds the values that
+// a step needs.
 #include "lang/lower/step_invariants.h"
 
 #include "lang/lower/minimum_cut.h"
@@ -19,13 +19,14 @@ bool has_tensor_weights(const PlanGraph& graph, NodeId id) {
     return graph[id].calls(Function::tensor_weights);
 }
 
-/// Whether computing the node takes operations in each cell that a plane could save.
+/// Whether computing the node takes operations in each cell that reading a plane would save.
 bool is_costly(const PlanGraph& graph, NodeId id) {
     return graph.is_step_invariant(id) && !graph.is_uniform(id) && !graph.is_plane(id) &&
            !has_tensor_weights(graph, id);
 }
 
-/// On each path from a root through operands, the first node for which is_chosen(node) holds.
+/// The first node for which is_chosen(node) holds on each path from a root to operands, operands of
+/// operands, and so on.
 template <typename Chosen>
 std::vector<NodeId> first_reached(const PlanGraph& graph, std::span<const NodeId> roots,
                                   const Chosen& is_chosen) {
@@ -73,8 +74,9 @@ public:
     }
 
 private:
-    /// Marks a node as needed at this number of cells. The number may be 0: an operator along an
-    /// axis of one cell has the node as an operand but does not read it.
+    /// Marks a node as needed at `places` cells, or at one cell if `places` is 0. It is 0 if the
+    /// node is the operand of an operator along an axis with one cell, which does not read the
+    /// node.
     void need(NodeId id, std::uint32_t places) {
         places_[id] = std::max({places_[id], places, std::uint32_t{1}});
     }
@@ -88,7 +90,8 @@ private:
         const bool at_faces = is_operator && node.type == ValueType::vector;
         const std::size_t count_of_operands = operands_of(node).size();
         for (std::size_t k = 0; k < count_of_operands; ++k) {
-            // A step-invariant operand is computed at the same cells as its reader.
+            // A step-invariant operand of a step-invariant node is computed in as many cells as the
+            // node.
             std::uint32_t places = graph_.is_step_invariant(id) ? places_[id] : 1;
             if (at_faces) {
                 places = count(crosswise(axes_));

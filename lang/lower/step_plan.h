@@ -2,9 +2,9 @@
 // are reductions and operations that need whole planes.
 //
 // Most formulas need one pass, in which every cell reads planes and writes its results. An operator
-// whose operand contains an operator, as in lap(c^3 - c - lap(c)), needs more: one pass writes the
-// inner part to a temporary plane, and a later pass reads it at neighbours. Aggregates over the
-// domain are computed between passes.
+// whose operand contains an operator, as in lap(c^3 - c - lap(c)), needs more passes: one pass
+// writes the inner part to a temporary plane, and a later pass reads it at neighbours. Aggregates
+// over the domain are computed between passes.
 #pragma once
 
 #include "ir/cell_kernel.h"
@@ -31,13 +31,13 @@ struct BoundKernel {
 
 using ResultId = Id<struct ResultTag>;  ///< A result of a plan.
 
-/// The plane or number to which one result of a pass is written.
+/// Where one result of a pass is written: to a plane or to a number.
 struct PassTarget {
     std::variant<ResultId, TemporaryId> id;
     bool is_uniform = false;   ///< Whether the result is the same in all cells.
     Boundaries boundary = {};  ///< The rules that fill the halo of a temporary or step-invariant.
-    /// If the result is a definition that has its own rules at sides: the index of these rules in
-    /// Stage::definition_sides. The rules then fill the halo instead of `boundary`.
+    /// If the result is a definition that has its own rules at sides, the index of these rules in
+    /// Stage::definition_sides. These rules fill the halo, and `boundary` does not.
     std::optional<std::size_t> wall = {};
 };
 
@@ -50,7 +50,7 @@ struct Reduction {
 
 struct StepPlan;
 
-/// A convolution convolve(…): for each cell, a weighted sum over the cells around it.
+/// A convolution convolve(…): for each cell, a weighted sum of values of the cells around it.
 struct Convolution {
     PlaneSource operand;
     TemporaryId target;
@@ -58,13 +58,14 @@ struct Convolution {
     /// The plan of the weights. It runs on a line of cells, each of which represents one lag
     /// (LagPart).
     std::shared_ptr<const StepPlan> weight;
-    /// The plan of a number: the distance up to which cells count. If null, all cells of the domain
-    /// count.
+    /// The plan that computes the largest distance of cells that count, as one number. If null, all
+    /// cells of the domain count.
     std::shared_ptr<const StepPlan> reach;
 };
 
 /// The field u that satisfies a constraint `0 = e`. The expression e is L u + b with a linear
-/// operator L. In the plans, Unknown is u, or the field to which L is applied.
+/// operator L. In the plan of e, Unknown is u. In the plan of L u, Unknown is the field to which L
+/// is applied.
 struct Solve {
     TemporaryId target;
     std::uint32_t constraint = 0;  ///< The index of the constraint in Literals.
@@ -78,14 +79,14 @@ struct Solve {
 };
 
 struct Pass {
-    /// Executed before the kernel of the pass: first the constraints (`solves`), then the
-    /// convolutions.
+    /// Computed before the kernel of the pass: first `solves`, the fields of constraints, and then
+    /// `convolutions`.
     std::vector<Solve> solves;
     std::vector<Convolution> convolutions;
-    std::vector<Reduction> reductions;  ///< Executed after the constraints and convolutions, before
-                                        ///< the kernel.
+    /// Computed after the constraints and convolutions and before the kernel.
+    std::vector<Reduction> reductions;
     BoundKernel bound;
-    std::vector<PassTarget> targets;  ///< One for each result of the kernel.
+    std::vector<PassTarget> targets;  ///< Where each result of the kernel is written.
 };
 
 struct StepPlan {
@@ -95,16 +96,16 @@ struct StepPlan {
     std::uint32_t temporaries = 0;  ///< The number of planes that passes write for later passes.
     std::uint32_t aggregates = 0;
     std::uint32_t step_invariants = 0;  ///< The number of step-invariants that the plan may read.
-    /// In a plan of step-invariants: how many of them are weights of links by tensors. These come
-    /// last. Instead of each, the plan has three results, from which its plane is computed
-    /// (TensorLinks::weights): γ and the two components of v.
+    /// In a plan of step-invariants, how many of them are weights of links by tensors. These
+    /// step-invariants come last. For each of them, the plan has three results (γ and the two
+    /// components of v), from which its plane is computed (TensorLinks::weights).
     std::uint32_t tensor_weights = 0;
     bool is_uniform = false;  ///< Whether every result is the same in all cells.
-    std::string words;        ///< The passes and the reasons for them, if requested.
+    std::string words;  ///< A description of the passes and of the reasons for them, if requested.
 };
 
-/// Which operands of operators are written to a plane (materialised). All others are recomputed at
-/// the neighbours at which they are read. Every choice gives the same bits.
+/// Which operands of operators are written to a plane (materialised). All other operands are
+/// recomputed at the neighbours at which they are read. Every choice gives the same bits.
 enum class Materialise : std::uint8_t {
     when_cheaper,  ///< Operands that are cheaper to write and read than to recompute.
     never,         ///< Only operands that cannot be recomputed.

@@ -2,9 +2,9 @@
 //
 // In this file, p, q and r are the entries 11, 12 and 22 of Ṽ⁻¹, and s is the area of the cell
 // (surface/parameter_surface.h). A gradient on the surface is Ṽ⁻ᵀ∇. The flow through the faces of a
-// cell is s Ṽ⁻¹ times the flux. Vectors are represented by such flows. So their divergence is
-// computed as on a plane, and the flow of a gradient is a tensor times ∇. spec/surfaces.md has the
-// formulas.
+// cell is s Ṽ⁻¹ times the flux. Vectors are represented by their flows. So the divergence of a
+// vector is computed as on a plane, and the flow of a gradient is a tensor times ∇.
+// spec/surfaces.md has the formulas.
 #include "lang/lower/graph_passes.h"
 #include "lang/vocabulary/function_groups.h"
 
@@ -36,14 +36,15 @@ class SurfaceOperators : public GraphPass {
     Term in_cells(NodeId of) {
         const auto [a11, a12, a22] = entries(of);
         const Term p = this->p(), q = this->q(), r = this->r();
-        const Term first = sum_of_products(p, a11, q, a12);  // The first row of Ṽ⁻¹ A.
+        // `first` and `second` are the first row of Ṽ⁻¹ A.
+        const Term first = sum_of_products(p, a11, q, a12);
         const Term second = sum_of_products(p, a12, q, a22);
         const Term along = sum_of_products(first, p, second, q);
         const Term mixed = second * r;
         return tensor(along, mixed, square(r) * a22);
     }
 
-    /// s Ṽ⁻¹ A Ṽ⁻ᵀ. Multiplied by ∇e, it gives the flow of the flux A grad(e).
+    /// s Ṽ⁻¹ A Ṽ⁻ᵀ. Multiplying this tensor by ∇e gives the flow of the flux A grad(e).
     Term flow_tensor(NodeId of) {
         const auto [a11, a12, a22] = entries(in_cells(of));
         const Term along = s() * a11, mixed = s() * a12;
@@ -63,14 +64,15 @@ class SurfaceOperators : public GraphPass {
         return vector(first, area * row);
     }
 
-    /// The first component of Ṽ⁻¹ (along, across).
+    /// The first component of Ṽ⁻¹ times the vector (along, across).
     Term in_columns(Term along, Term across) {
         const Term q = this->q();
         return sum_of_products(p(), along, q, across);
     }
 
-    /// The flow of A v. Applies A to the gradients and vectors of which v consists in the old
-    /// graph. In that graph nodes come before their readers, so flows are built in ascending order.
+    /// The flow of A v. Applies A to each gradient and each vector of which v consists in the old
+    /// graph. In that graph nodes come before their readers, so the flows of smaller nodes are
+    /// built first.
     NodeId flow_times_tensor(NodeId a, NodeId v) {
         IdVector<NodeId, bool> reached(v.index() + 1, false);
         IdVector<NodeId, NodeId> flows(reached.size());
@@ -107,7 +109,8 @@ class SurfaceOperators : public GraphPass {
         return flows[v];
     }
 
-    /// The derivative along each of the two directions of the tangent plane.
+    /// The derivative along the first direction in the tangent plane. across_row() takes the
+    /// second.
     Term along_row(Term of) {
         const Term p = this->p();
         return p * dx(of);
@@ -152,9 +155,9 @@ Expressions lay_on_surface(const Expressions& from, const PassContext& context) 
     return SurfaceOperators(from, context).run();
 }
 
-/// The derivative divided by √g, where g is the diagonal entry of Ṽ⁻¹Ṽ⁻ᵀ in the cell itself.
-/// Coefficients of flows are mirrored at sides, too, so the flow is the derivative times the length
-/// of the face.
+/// The derivative divided by √g, where g is the diagonal entry of Ṽ⁻¹Ṽ⁻ᵀ in the cell itself. The
+/// coefficients of flows are mirrored at sides, too, so the flow is the derivative multiplied by
+/// the length of the face.
 NodeId across_side(ExpressionGraph& graph, const PassContext& context, NodeId value, Side side) {
     if (!context.has_metric()) return value;
     const auto leaf = [&](MetricPlane plane) { return Term{&graph, graph.leaf(plane)}; };

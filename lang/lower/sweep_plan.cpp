@@ -65,7 +65,8 @@ private:
         return std::find(species_.begin(), species_.end(), item) != species_.end();
     }
 
-    /// The value of a species in an input, in the cell itself. Formulas read input 0.
+    /// The value that a species has in an input, in the cell itself. Input 0 contains the items
+    /// that formulas read.
     ValueId input(PlanBuilder& plan, std::uint32_t input, ItemId item) const {
         if (input == 0) return plan.last_pass().field(StageItem{stage_, item});
         return plan.last_pass().field(SweepInput{input, item});
@@ -87,7 +88,7 @@ private:
             case SweepTerm::Source::rate:
                 value = plan.value(rates_[item])[0];
                 // A rate that points beyond a bound counts as 0 if the value is at this bound.
-                // Otherwise the cell would affect other cells in methods that combine or filter
+                // Without this, the cell would affect other cells in methods that combine or filter
                 // rates.
                 if (kind != SweepOutput::Kind::change && !form_.ignores_held_rates) break;
                 if (const auto held = is_held(plan, item)) {
@@ -118,7 +119,7 @@ private:
         return *sum;
     }
 
-    /// Solves the form's equations, in which all species are unknown.
+    /// Solves the form's equations. The unknowns are all species.
     void solve(PlanBuilder& plan) {
         KernelBuilder& builder = plan.last_pass().builder();
         const SweepForm::Equations& equations = *form_.equations;
@@ -175,7 +176,7 @@ private:
         }
     }
 
-    /// Clamps the values by the bounds, in the order in which these are written.
+    /// Clamps the values by the bounds, in the order that the bounds have in the script.
     void clamp(PlanBuilder& plan, IdVector<ItemId, ValueId>& next) const {
         KernelBuilder& builder = plan.last_pass().builder();
         for (const auto& [invariant, part] : bounds_) {
@@ -186,7 +187,7 @@ private:
         }
     }
 
-    /// Whether the value in input 0 is at a bound and its rate points beyond the bound. Empty if
+    /// Whether the value in input 0 is at a bound and its rate points beyond the bound. nullopt if
     /// the species has no bound.
     std::optional<ValueId> is_held(PlanBuilder& plan, ItemId item) const {
         KernelBuilder& builder = plan.last_pass().builder();
@@ -214,7 +215,8 @@ private:
     const System& system_;
     std::vector<ItemId> species_;  ///< The species that are written.
     IdVector<ItemId, NodeId> rates_;
-    IdVector<SpeciesId, std::vector<NodeId>> derivatives_;     ///< For `equations`.
+    /// The derivatives of the rates, if the form has `equations`.
+    IdVector<SpeciesId, std::vector<NodeId>> derivatives_;
     IdVector<ItemId, ValueId> solution_;                       ///< The solution of `equations`.
     std::vector<std::pair<const Invariant*, NodeId>> bounds_;  ///< The bounds of `species_`.
 };

@@ -1,5 +1,5 @@
-// Expresses vectors, frames and links of cells that crawl by numbers in an expression graph
-// (internal to lowering).
+// Expresses vectors, frames and links of crawling cells by numbers in an expression graph (internal
+// to lowering).
 #pragma once
 
 #include "lang/lower/graph_passes.h"
@@ -9,7 +9,7 @@
 
 namespace cascade::lowering {
 
-/// Adds nodes to the graph of a stage of cells that crawl.
+/// Adds nodes to the graph of a stage of crawling cells.
 class TissueNumbers {
 public:
     TissueNumbers(ExpressionGraph& graph, const PassContext& context)
@@ -19,18 +19,19 @@ public:
 
     Term term(NodeId id) { return {&graph_, id}; }
     Term leaf(const NodeKind& kind) { return term(graph_.leaf(kind)); }
-    /// The vector of three consecutive items.
+    /// The vector whose components are three consecutive items.
     TermVector items(ItemId first);
     TermVector place() { return items(rules_.place); }
     /// An axis of the cell's frame: 0 is ex, 1 ey, 2 ez.
     TermVector axis(std::size_t axis);
 
-    // Values of a link.
-    /// The value of a plane at the other end of the link. A number that is not a plane has the same
-    /// value there.
+    // The following functions return values that belong to a link.
+
+    /// The value of a plane at the other end of the link. If the operand is a number and not a
+    /// plane, the value is the same at both ends.
     Term theirs(Term plane);
-    /// The vector from the cell to its neighbour. On periodic planes it leads to the neighbour's
-    /// nearest image.
+    /// The vector from the cell to its neighbour. On a periodic plane, the vector leads to the
+    /// nearest image of the neighbour.
     TermVector apart();
     Term distance() { return length(apart()); }
     TermVector direction() { return unit(apart()); }

@@ -1,13 +1,13 @@
-// Rewrites formulas of cells that crawl: vectors become three numbers each, and sums over
-// neighbours become sums over links.
+// Rewrites formulas of crawling cells: vectors become three numbers each, and sums over neighbours
+// become sums over links.
 //
 // Inside a sum over neighbours, names mean the neighbour's values. So a node has up to two images:
 // its value in the cell (`here`), and its value at the other end of a link (`there`). A node that
 // reads no value of the link depends only on the neighbour. Its image `there` is either read from a
 // plane that an earlier pass writes (`theirs`), or, if that is cheap, computed for each link from
-// the planes that the node reads. All sums have the same form: link_sum of the value if the cells
-// touch, else of 0. All sums share the nodes of distances and of the conditions for touching, and
-// kernels compute all sums in one loop over links.
+// the planes that the node reads. All sums have the same form: link_sum of a number that is the
+// value if the cells touch, and 0 otherwise. All sums share the nodes of distances and of the
+// conditions for touching, and kernels compute all sums in one loop over links.
 #include "lang/lower/graph_passes.h"
 
 #include "core/check.h"
@@ -25,10 +25,10 @@ namespace cascade::lowering {
 
 namespace {
 
-/// A number (as x), or the three components of a vector.
+/// A number (in x), or the three components of a vector.
 using Parts = TermVector;
 
-/// The approximate number of neighbours.
+/// The approximate number of neighbours of a cell.
 constexpr int usual_links = 8;
 constexpr int most_operations = 1 << 20;
 
@@ -50,8 +50,8 @@ public:
 
 private:
     struct Facts {
-        bool is_of_link = false;  ///< Whether it reads a value of the link, or own(e).
-        bool stays = false;       ///< Whether it cannot be computed for a neighbour.
+        bool is_of_link = false;  ///< Whether the node reads a value of the link, or own(e).
+        bool stays = false;       ///< Whether the node cannot be computed for a neighbour.
         int operations = 0;       ///< The number of operations that compute the node from planes.
         bool read_here = false, read_there = false;
     };
@@ -128,10 +128,10 @@ void TissuePass::find_facts() {
     }
 }
 
-/// Whether the neighbour's value is read from a plane instead of being computed for each link. Only
-/// for nodes that vary and do not depend on the link. Axes of frames are read from planes: combing
-/// with six neighbours takes 22 ns per cell with planes of ez, including the pass that writes them,
-/// and 26 ns if the quaternions are read at the neighbours instead.
+/// Whether the neighbour's value of a node is read from a plane. If not, it is computed for each
+/// link. The node must vary and must not depend on the link. Axes of frames are read from planes:
+/// combing with six neighbours takes 22 ns per cell with planes of ez, including the pass that
+/// writes them, and 26 ns if the quaternions are read at the neighbours instead.
 bool TissuePass::is_gathered(NodeId id) const {
     const Facts& facts = facts_[id];
     return facts.stays || facts.operations == 0 ||
@@ -236,7 +236,7 @@ Parts TissuePass::value_of_link(CellValue value) {
     CHECK(false, "lowering: other values are gathered from planes");
 }
 
-/// The result of a function whose operands are all taken at the same end of the link.
+/// The result of a function whose operands are all values at the same end of the link.
 Parts TissuePass::combined(NodeId id, std::span<const Parts> operands) {
     const Node& node = from_.graph[id];
     return of_components<Term>(from_.graph, node, operands, [&](const auto& numbers) {
@@ -247,7 +247,7 @@ Parts TissuePass::combined(NodeId id, std::span<const Parts> operands) {
     });
 }
 
-/// A sum, mean, minimum or maximum over touching or near cells.
+/// A sum, mean, minimum or maximum over the cells that are touching or near.
 Parts TissuePass::over_neighbours(const Node& node) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const Term is_close = node.operand_count == 1 ? numbers_.is_touching()

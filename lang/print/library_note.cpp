@@ -1,5 +1,5 @@
-// Takes the comments at the top of a text as its description. The comments are found among the
-// text's words, without a syntax tree.
+// Reads the description of a library text from the comments at its top. Finds these comments among
+// the words of the text, without a syntax tree.
 #include "lang/print/library_note.h"
 
 #include "lang/format/format_words.h"
@@ -27,8 +27,8 @@ std::string_view said_in(std::string_view comment) {
     return comment;
 }
 
-/// The blocks to add after the first block of a text without a stage, so that the text can be run
-/// and drawn.
+/// If a text has no stage, these blocks are appended, so that the text can be run and drawn.
+/// `block` is the last block of the text.
 std::string rest_of_script(const ast::Block& block, std::string_view name) {
     if (block.kind == ast::BlockKind::shape) {
         return fmt::format(

@@ -21,7 +21,7 @@ std::string print_number(double value) {
     return {buffer.data(), end};
 }
 
-/// Prints expressions. Its stack is explicit, so expressions may be arbitrarily deep.
+/// Prints expressions. The stack is explicit, so expressions may be of any depth.
 class ExpressionPrinter {
 public:
     explicit ExpressionPrinter(const ast::Script& script) : script_(script) {}
@@ -38,13 +38,13 @@ public:
             }
             const ast::ExprId operand = work.operands[work.next++];
             text_ += ' ';
-            open(operand);  // May invalidate `work`.
+            open(operand);  // This call may make the reference `work` invalid.
         }
         return std::move(text_);
     }
 
 private:
-    /// An operator, some of whose operands have not been printed yet.
+    /// An operator with operands that have not been printed yet.
     struct Work {
         std::vector<ast::ExprId> operands;
         std::size_t next = 0;

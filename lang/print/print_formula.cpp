@@ -14,8 +14,8 @@ namespace cascade {
 
 namespace {
 
-/// A node to write inside an operator. The node gets brackets if its precedence is below the
-/// precedence needed.
+/// A node that is written as an operand. It gets brackets if its precedence is below the needed
+/// precedence.
 struct Part {
     NodeId node;
     int least = 0;
@@ -46,8 +46,8 @@ private:
     void push(Item item) { stack_.push_back(item); }
 
     void write(const Part& part) {
-        // A node that several nodes read, such as the argument of a function, is written for each
-        // of them, up to a limit.
+        // If several nodes read a node, such as the argument of a function, it is written for each
+        // of them. The total number of written nodes is limited.
         if (++written_ > formula_.nodes.size() + most_repeated) {
             text_ += "…";
             return;
@@ -74,7 +74,8 @@ private:
             push(Part{node.operands[0], own});
             return;
         }
-        const bool chains = own != 4;  // Comparisons do not chain.
+        // Comparisons need brackets on both sides, because they do not chain.
+        const bool chains = own != 4;
         const bool to_the_right = node.function == Function::power;
         push(Part{node.operands[1], to_the_right ? 7 : own + 1});
         push(std::string_view(" "));
@@ -143,7 +144,7 @@ private:
             [](double number) { return fmt::format("{}", number); },
             [&](TextId id) { return fmt::format("\"{}\"", program_.literals->text(id)); },
             [&](ItemId item) {
-                // Of all items, only the position is a vector.
+                // The position is the only item that is a vector.
                 const std::string_view name =
                     node.type == ValueType::vector ? "p" : system_.item_name(item);
                 return fmt::format(fmt::runtime(stage_ ? "[{}]" : "{}"), name);

@@ -9,12 +9,12 @@
 
 namespace cascade {
 
-/// A value of a model's surface, in the notation of scripts.
+/// Writes a value of a model's surface in the notation of scripts.
 std::string text_of(const SurfaceValue& value);
 
-/// The formula in the notation of scripts. If `stage` is given, items of this stage are written [p]
-/// and items of other stages stage.p, as in statements of this stage. Otherwise names of the system
-/// are written without brackets or prefix.
+/// The formula in the notation of scripts. If `stage` is given, items of this stage are written as
+/// [p], and items of other stages as stage.p, as in the statements of this stage. Otherwise the
+/// names of the system are written without brackets or prefix.
 std::string print_formula(const Program& program, const System& system, const Formula& formula,
                           std::optional<std::uint32_t> stage = {});
 

@@ -30,8 +30,8 @@ void print_settings(const Program& program, const System& system, Output out) {
     print("show", settings.show);
 }
 
-/// The starting value of an item. For a frame, prints the two axes that determine it, because its
-/// formulas would fill pages.
+/// Prints the starting value of an item. If the item belongs to a frame, prints the two axes that
+/// determine the frame, because the item's own formulas would fill pages.
 std::string print_start(const Program& program, const System& system, ItemId item,
                         const Formula& start, std::optional<std::uint32_t> stage) {
     const bool is_of_axes = is_component_of_frame(system, item) && start.nodes.size() > 1;
@@ -137,7 +137,7 @@ void print_sides(const Program& program, std::uint32_t index, std::string_view n
     const System& system = program.system_of(index);
     for (std::size_t side = 0; side < wall_count; ++side) {
         const SideSetting& setting = sides[side];
-        if (setting.span.end == 0) continue;  // The rule comes from the boundary.
+        if (setting.span.end == 0) continue;  // The rule follows from the boundary setting.
         fmt::format_to(out, "  {}.{}: {}", name, side_names[side],
                        side_kind_words[static_cast<std::size_t>(setting.kind)]);
         if (takes_value(setting.kind)) {

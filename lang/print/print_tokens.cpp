@@ -16,7 +16,7 @@ bool has_own_text(TokenKind kind) {
            kind == TokenKind::garbage;
 }
 
-/// A string on one line, with unprintable bytes escaped.
+/// A string on one line, in which unprintable bytes are escaped.
 std::string quoted(std::string_view text) {
     std::string result = "\"";
     for (std::size_t offset = 0; offset < text.size();) {
@@ -46,7 +46,7 @@ std::string_view spelling(TokenKind kind) {
 
 std::string print_tokens(const std::vector<Token>& tokens, const Sources& sources) {
     std::string result;
-    // Counts columns from the previous token on, so that the time grows only linearly with the
+    // Columns are counted from the previous token, so that the time grows only linearly with the
     // length of a line.
     Location last{1, 1};
     std::uint32_t last_offset = 0;

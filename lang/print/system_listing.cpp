@@ -22,7 +22,7 @@ struct Row {
     std::string_view doc;
 };
 
-/// The source text of a value, on one line.
+/// The source text of a value, put on one line.
 std::string source_of(const SaidStatement& said, const ast::Expression& value) {
     const ast::Expr& root = said.script->expressions[value.root];
     const std::string_view text = said.sources->text(root.span);
@@ -95,7 +95,8 @@ std::vector<std::string> system_words(const ast::Script& script, const Sources& 
 
 std::string print_system_listing(const ast::Script& script, const Sources& sources,
                                  std::string_view system) {
-    constexpr std::size_t widest_value = 24;  // A longer value shifts the columns after it.
+    // If a value is wider than this, the columns after it are shifted.
+    constexpr std::size_t widest_value = 24;
     const SystemStatements statements(script, sources, system_blocks(script), system);
     std::vector<Row> rows;
     std::size_t name_width = 0, value_width = 0, range_width = 0;

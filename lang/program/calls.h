@@ -1,4 +1,4 @@
-// Tests of the calls in formulas.
+// Tests of function calls in formulas.
 #pragma once
 
 #include "lang/program/formula.h"
@@ -14,7 +14,8 @@ inline bool calls(const Node& node, bool (*has_property)(Function)) {
     return node.is<Call>() && has_property(node.function);
 }
 
-/// The number of the constraint whose solution is the node's value. Empty for other nodes.
+/// If the node is the solution of a constraint, the number of this constraint. nullopt for other
+/// nodes.
 inline std::optional<std::uint32_t> solved_constraint(const Node& node) {
     return node.calls(Function::solved) ? std::optional(node.as<Call>()->detail) : std::nullopt;
 }

@@ -1,5 +1,5 @@
-// The items and rules that only systems of crawling cells have. For systems of fields, the
-// functions return false or an empty list.
+// The items and rules that only systems of crawling cells have. For other systems, the functions
+// return false or an empty list.
 #pragma once
 
 #include "lang/program/system.h"

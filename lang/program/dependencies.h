@@ -8,12 +8,12 @@
 
 namespace cascade {
 
-/// For each definition and rate of a system, the definitions and rates that it reads. Number d is
-/// definition d. Number `definitions.size() + item` is the rate of an item.
+/// For each definition and rate of a system, the definitions and rates that it reads. Definition d
+/// has the number d. The rate of item i has the number `definitions.size() + i`.
 Dependencies step_dependencies(const System& system);
 
-/// For each item of a stage, or each default of a system, the items that it reads. An item without
-/// a formula (null) reads nothing.
+/// For each item of a stage, or for each default of a system, the items that its formula reads. An
+/// item whose pointer is null has no formula and reads nothing.
 Dependencies item_dependencies(const std::vector<const Formula*>& items);
 
 /// The items of a stage that need an aggregate over the domain, directly or through other items.

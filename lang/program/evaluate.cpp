@@ -1,4 +1,5 @@
-// Evaluates formulas in one loop over the flat list of nodes, in which operands come first.
+// Evaluates formulas in one loop over their lists of nodes, in which operands come before the nodes
+// that read them.
 #include "lang/program/evaluate.h"
 
 #include "core/check.h"
@@ -10,7 +11,7 @@ namespace cascade {
 
 void evaluate(const Formula& formula, const KnownValues& known, std::span<double> values) {
     const std::size_t places = values.size();
-    // A column for each node except the last, for which `values` is used.
+    // One column for each node, except for the last node, whose values go into `values`.
     std::vector<double> columns((formula.nodes.size() - 1) * places);
     for (const NodeId id : formula.nodes.ids()) {
         const Node& node = formula.nodes[id];

@@ -11,21 +11,23 @@
 
 namespace cascade {
 
-/// Evaluates nodes that are neither numbers nor functions of numbers, such as coordinates. Sets
-/// values[k] to the node's value at position k and returns true, or returns false if this node has
-/// no known value. The k-th number of each column is the value of an operand at position k.
+/// Evaluates a node that is neither a number nor a function of numbers, such as a coordinate. Sets
+/// values[k] to the node's value at position k and returns true. If the value of the node is not
+/// known, returns false. The k-th number of each operand's column is the operand's value at
+/// position k.
 using KnownValues = std::function<bool(const Node&, const OperandColumns&, std::span<double>)>;
 
 /// Sets values[k] to the value of a formula at position k. The formula may consist of numbers,
-/// known values and functions of numbers. Computes one node after another, each at all positions,
-/// so callers should pass only some hundred positions at a time, which fit into the caches.
+/// known values and functions of numbers. The nodes are computed one after another, each at all
+/// positions. So callers should pass only a few hundred positions at a time, whose values fit into
+/// the caches.
 void evaluate(const Formula& formula, const KnownValues& known, std::span<double> values);
 
-/// Values of the built-in names, indexed by Builtin.
+/// The values of the built-in names, indexed by Builtin.
 using BuiltinValues = std::array<double, builtin_count>;
 
 /// The value of a formula of numbers, built-in values and functions of numbers. The checker allows
-/// nothing else in such formulas (checking::Context::position).
+/// nothing else in these formulas (checking::Context::position).
 double evaluate(const Formula& formula, const BuiltinValues& builtins);
 
 }  // namespace cascade

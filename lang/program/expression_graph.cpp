@@ -1,4 +1,4 @@
-// Finds equal nodes by a hash of all members in which equal nodes agree.
+// Finds equal nodes by a hash. The hash depends only on members that are equal in equal nodes.
 #include "lang/program/expression_graph.h"
 
 #include "core/overloaded.h"
@@ -14,8 +14,8 @@ std::uint64_t mix(std::uint64_t hash, std::uint64_t word) {
     return (hash ^ word) * 0x100000001b3ULL ^ (hash >> 29);
 }
 
-/// A word that distinguishes nodes of the same kind. Numbers are equal if their bits are, so −0
-/// differs from 0.
+/// A word that distinguishes nodes of the same kind. Two numbers are equal if they have the same
+/// bits, so −0 differs from 0.
 std::uint64_t word_of(const NodeKind& kind) {
     const auto of_item = [](StageItem each) {
         return std::uint64_t{each.stage} << 32 | each.item.index();
@@ -66,7 +66,7 @@ NodeId ExpressionGraph::add(const Node& node, Written written) {
         if (is_same(nodes_[id], node) && (!is_draw(node) || written_[id] == written)) return id;
     }
     known_[place] = nodes_.next();
-    nodes_.push_back(Node(node));  // `node` may refer to an element of this graph.
+    nodes_.push_back(Node(node));  // Copies `node`, because it may refer to an element of `nodes_`.
     written_.push_back(written);
     return *known_[place];
 }

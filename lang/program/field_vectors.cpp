@@ -1,4 +1,4 @@
-// Rewrites vectors. There is a rule for each kind of vector. Components of a vector are made when
+// Rewrites vectors, by one rule for each kind of vector. The components of a vector are made when
 // they are first needed.
 #include "lang/program/field_vectors.h"
 
@@ -30,8 +30,9 @@ TensorEntries tensor_entries(ExpressionGraph& graph, NodeId a1, NodeId a2, NodeI
 }
 
 ModelTensor model_tensor(ExpressionGraph& graph, NodeId tensor) {
-    // The least part of the diffusion, relative to the mean of a1² and a2², that is computed over
-    // links. It is large enough to damp the shortest waves in a direction in which nothing spreads.
+    // The least part of the diffusion that is computed over links, relative to the mean of a1² and
+    // a2². This part is large enough to damp the shortest waves along a direction in which nothing
+    // spreads.
     constexpr double least_part = 1.0 / 32;
     const auto leaf = [&](const NodeKind& kind) { return Term{&graph, graph.leaf(kind)}; };
     const auto operand = [&](std::size_t n) { return Term{&graph, graph[tensor].operands[n]}; };
@@ -119,8 +120,8 @@ std::optional<NodeId> FieldVectors::written_out(const Node& node) {
     return vector(parts.x.term, parts.y.term, parts.z.term);
 }
 
-/// Along axes of the grid, the three components of ∇ × v are differences of central differences. On
-/// a surface, curl is the number ∇ · (v rotated by a right angle), which is correct for any metric.
+/// On a plane or in a volume, the components of ∇ × v are differences of central differences. On a
+/// surface, curl is the number ∇ · (v rotated by a right angle), which is correct for any metric.
 NodeId FieldVectors::curl(const Node& node) {
     const NodeId of = node.operands[0];
     if (!is_vector(of)) {
@@ -137,8 +138,8 @@ NodeId FieldVectors::curl(const Node& node) {
     return vector(x, y, part(0, 1));
 }
 
-/// The angle of the vector `of`, from the first direction (x on a plane) towards the second (y). On
-/// a model each cell has its own two directions.
+/// The angle of the vector `of`, measured from the first direction towards the second. On a plane
+/// these directions are x and y. On a model each cell has its own two directions.
 NodeId FieldVectors::angle(NodeId of) {
     const SparseVector v = components(of);
     if (!space_.on_model) return atan2(v.y.term, v.x.term);
@@ -150,8 +151,8 @@ NodeId FieldVectors::angle(NodeId of) {
     return atan2(down.term, right.term);
 }
 
-/// Rewrites if(c, v, w) or mix(v, w, t). In a cell, `if` takes the components of one of the two
-/// vectors unchanged.
+/// Rewrites if(c, v, w) or mix(v, w, t). In each cell, the result of `if` has exactly the
+/// components of v or of w.
 NodeId FieldVectors::choice(const Node& node) {
     const Term a = term(node.operands[0]), b = term(node.operands[1]), c = term(node.operands[2]);
     if (node.function == Function::mix) return a + c * (b - a);
@@ -166,7 +167,7 @@ NodeId FieldVectors::choice(const Node& node) {
     return chosen;
 }
 
-/// Rewrites advect(v, e) and transport(v, e) by the components of v.
+/// Rewrites advect(v, e) and transport(v, e) as operators on the components of v.
 NodeId FieldVectors::carried(const Node& node) {
     const SparseVector v = components(node.operands[0]);
     const Term of = term(node.operands[1]);
@@ -175,7 +176,7 @@ NodeId FieldVectors::carried(const Node& node) {
     return Term::call(node.function, v.x.term, v.y.term, v.z.term, of);
 }
 
-/// Rewrites arithmetic of tensors, entry by entry.
+/// Rewrites arithmetic on tensors, entry by entry.
 std::optional<NodeId> FieldVectors::of_tensors(const Node& node) {
     if (info(node.function).kind != FunctionKind::arithmetic) return std::nullopt;
     std::array<TensorMatrix, 2> operands;
@@ -204,7 +205,7 @@ SparseVector FieldVectors::gradient(NodeId of) {
     return parts;
 }
 
-/// Vectors may be deeply nested, so vectors whose components are not known yet are put on a stack.
+/// Finds components with a stack and without recursion, because vectors may be deeply nested.
 const SparseVector& FieldVectors::components(NodeId vector) {
     std::vector<NodeId> waiting{vector};
     while (!waiting.empty()) {

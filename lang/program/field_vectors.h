@@ -1,10 +1,10 @@
 // Rewrites vectors in systems of fields as operators that lowering and calculus support.
 //
 // A vector has two kinds of values. In a cell it is three numbers: grad(e) is (dx(e), dy(e),
-// dz(e)), and arithmetic works component by component. Inside div the value at faces is needed
-// (lang/lower/lower_vectors.cpp). Only these nodes have a value at faces: grad, vector, sums,
-// differences and negatives of vectors, and vectors multiplied or divided by numbers or multiplied
-// by a tensor. So
+// dz(e)), and arithmetic works component by component. Inside div a vector has a value at each face
+// between cells (lang/lower/lower_vectors.cpp). Only these nodes have a value at faces: grad,
+// vector, sums, differences and negatives of vectors, vectors multiplied or divided by numbers, and
+// vectors multiplied by a tensor. All other functions of vectors are rewritten:
 //
 //   v.x, dot, length, curl of a vector in the plane    become numbers, made of components;
 //   cross, curl                                        become vector(…) of such numbers;
@@ -27,8 +27,8 @@
 namespace cascade {
 
 /// The entries a11, a12 and a22 of A = R(θ) diag(a1², a2²) Rᵀ(θ), with y pointing down (Witkin &
-/// Kass, equation 6; their direction [cos θ, sin θ] and the sign of their a12 agree if y points
-/// down).
+/// Kass, equation 6). The direction [cos θ, sin θ] and the sign of a12 agree with that equation if
+/// y points down.
 struct TensorEntries {
     Term a11, a12, a22;
 };
@@ -36,15 +36,17 @@ TensorEntries tensor_entries(ExpressionGraph& graph, NodeId a1, NodeId a2, NodeI
 
 /// The entries of a symmetric tensor, by row and column.
 using TensorMatrix = std::array<TermVector, 3>;
-/// The matrix of a node tensor(a1, a2, theta) or symmetric(…). For a tensor of the plane, entries
-/// with z are 0. On a model the result is the matrix of ModelTensor in space.
+/// The matrix of a node tensor(a1, a2, theta) or symmetric(…). On a plane, all entries in the row
+/// and the column of z are 0. On a model the matrix is the tensor in space that ModelTensor
+/// describes.
 TensorMatrix tensor_matrix(ExpressionGraph& graph, NodeId tensor, bool on_model);
 
-/// A node tensor(a1, a2, theta) in a cell of a model. For a vector v in the plane of the cell, T v
-/// = low v + (rest v + along (t · v) t), where t is the direction theta. The divergence of low v,
-/// which damps waves of all directions, is computed over links, and the second term in cells. If
-/// the neighbours of a cell are spread so unevenly that the second term could make waves grow
-/// (surface/cell_frames.h), a1² and a2² are brought nearer to their mean.
+/// The tensor of a node tensor(a1, a2, theta) in a cell of a model. For a vector v in the plane of
+/// the cell, T v = low v + (rest v + along (t · v) t), where t is the direction theta. The
+/// divergence of low v is computed over links, and it damps waves of all directions. The divergence
+/// of the second term is computed in cells. If the neighbours of a cell are spread so unevenly that
+/// the second term could make waves grow (surface/cell_frames.h), a1² and a2² are brought nearer to
+/// their mean.
 struct ModelTensor {
     Term low, rest, along;
     TermVector t;
@@ -54,11 +56,13 @@ ModelTensor model_tensor(ExpressionGraph& graph, NodeId tensor);
 /// The directions in which the cells of a system of fields have neighbours.
 struct FieldSpace {
     std::array<bool, 3> has_axis{};
-    bool has_metric = false;  ///< Whether the grid is on a surface given by a formula. Then x and y
-                              ///< are directions along the surface.
+    /// Whether the grid is on a surface given by a formula. If so, x and y are directions along the
+    /// surface.
+    bool has_metric = false;
     bool on_model = false;
 
-    /// Empty for a system of cells that crawl, because lowering rewrites vectors of such cells.
+    /// The space of a system. nullopt for a system of crawling cells, because lowering rewrites the
+    /// vectors of these.
     static std::optional<FieldSpace> of(const Program& program, const System& system);
 };
 
@@ -66,13 +70,13 @@ class FieldVectors {
 public:
     FieldVectors(ExpressionGraph& graph, const FieldSpace& space) : graph_(graph), space_(space) {}
 
-    /// Adds a node, or the nodes that replace it. The operands must have been added by this
-    /// function.
+    /// Adds a node, or adds the nodes that replace it. The operands of `node` must be results of
+    /// this function.
     NodeId add(const Node& node, Written written);
 
-    /// The three numbers of a vector in a cell.
+    /// The three components of a vector in a cell.
     const SparseVector& components(NodeId vector);
-    /// The three numbers of a vector if they have been computed; else null.
+    /// The three components of a vector if they have already been computed; else null.
     const SparseVector* known_components(NodeId vector) const {
         const auto found = components_.find(vector);
         return found == components_.end() ? nullptr : &found->second;
@@ -96,8 +100,8 @@ private:
 
     ExpressionGraph& graph_;
     FieldSpace space_;
-    std::unordered_map<NodeId, SparseVector> components_;  ///< For each vector, its three numbers
-                                                           ///< in a cell.
+    /// Maps each vector to its three components in a cell.
+    std::unordered_map<NodeId, SparseVector> components_;
 };
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Puts formulas into a graph, in one loop over the nodes of each formula.
+// Puts formulas into a graph. Each formula is added in one loop over its nodes.
 #include "lang/program/flatten.h"
 
 #include "core/check.h"

@@ -1,4 +1,5 @@
-// Puts formulas into one graph, with definitions and rates replaced by their expressions.
+// Puts formulas into one graph. The expressions of definitions and rates take the place of the
+// nodes that read them.
 #pragma once
 
 #include "lang/program/field_vectors.h"
@@ -11,16 +12,17 @@
 
 namespace cascade {
 
-/// The way in which the random numbers of a formula are drawn.
+/// How the random numbers of a formula are drawn.
 struct Noise {
-    std::string origin;       ///< The name of the item or definition. For a rate, the name of the
-                              ///< species with a prime.
+    /// The name of the item or definition that has the formula. For a rate, the name of the species
+    /// followed by a prime.
+    std::string origin;
     bool every_step = false;  ///< Whether each step draws new numbers.
-    std::string owner = {};   ///< If not empty, this name enters the hash in place of the stage's
-                              ///< name.
+    /// If not empty, random numbers depend on this name in place of the stage's name.
+    std::string owner = {};
 };
 
-/// A formula that was put into a graph. Written::formula is its index.
+/// A formula that was put into a graph. Written::formula is the index of its Origin.
 struct Origin {
     const Formula* formula = nullptr;
     Noise noise;
@@ -29,7 +31,8 @@ struct Origin {
 /// Writes formulas into a graph, one after another.
 class Flattening {
 public:
-    /// If `space` is given, vectors are rewritten (lang/program/field_vectors.h).
+    /// If `space` is given, vectors are rewritten when they are added
+    /// (lang/program/field_vectors.h).
     explicit Flattening(ExpressionGraph& graph, const std::optional<FieldSpace>& space = {})
         : graph_(graph) {
         if (space) vectors_.emplace(graph, *space);
@@ -37,17 +40,16 @@ public:
 
     /// Adds a formula and returns the node of its value. Each definition, rate and item of the
     /// stage that the formula reads is replaced by the node that was set for it. Items for which no
-    /// node was set remain.
+    /// node was set stay as nodes.
     NodeId add(const Formula& formula, Noise noise = {});
-    /// Adds a system's definitions and rates. Each is added after the definitions and rates that it
-    /// reads.
+    /// Adds a system's definitions and rates, each after the definitions and rates that it reads.
     void add_rates(const System& system);
     void set_item(ItemId item, NodeId value) { items_[item] = value; }
 
     NodeId rate(ItemId species) const { return rates_.at(species); }
     NodeId definition(DefinitionId id) const { return definitions_.at(id); }
     const std::vector<Origin>& origins() const { return origins_; }
-    /// The names of definitions and rates, with their nodes. Components of a vector J have names
+    /// The nodes of definitions and rates, with their names. Components of a vector J have names
     /// such as J.x.
     std::vector<std::pair<NodeId, std::string>> names() const;
 

@@ -1,4 +1,4 @@
-// Evaluates functions of numbers in double precision, for values that are known before a run.
+// Evaluates functions of numbers in double precision, if their values are known before a run.
 #include "lang/program/fold.h"
 
 #include <cmath>
@@ -45,7 +45,8 @@ bool fold(Function function, const OperandColumns& operands, std::span<double> v
 }
 
 std::optional<double> fold(Function function, std::span<const double> operands) {
-    if (function == Function::grown) return std::nullopt;  // It may grow during a stage.
+    // The domain may grow during a stage, so the value is not known.
+    if (function == Function::grown) return std::nullopt;
     [[maybe_unused]] const double a = operands[0], b = operands[1], c = operands[2];
     switch (function) {
         // clang-format off

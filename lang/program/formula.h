@@ -1,4 +1,5 @@
-// Checked expressions. Their nodes refer to items and definitions by ids, not by names.
+// Checked expressions. The nodes of an expression refer to items and definitions by ids, not by
+// names.
 #pragma once
 
 #include "core/id.h"
@@ -19,35 +20,42 @@ namespace cascade {
 /// The planes of a surface that operators read (surface/parameter_surface.h).
 // clang-format off
 enum class MetricPlane : std::uint8_t {
-    inverse_11, inverse_12, inverse_22,  ///< Ṽ⁻¹.
+    inverse_11, inverse_12, inverse_22,  ///< The matrix Ṽ⁻¹.
     area,                                ///< s, the area of the cell.
-    flow_11, flow_12, flow_22,           ///< s Ṽ⁻¹ Ṽ⁻ᵀ, which turns differences into fluxes.
+    flow_11, flow_12, flow_22,  ///< The matrix s Ṽ⁻¹ Ṽ⁻ᵀ, by which differences become fluxes.
 };
 // clang-format on
 inline constexpr std::size_t metric_plane_count = 7;
-/// The names of the planes in dumps. They differ from all names of the language, because they begin
-/// with a bracket.
+/// The names of the planes in dumps. A plane's name begins with a bracket, so that it differs from
+/// all names in the language.
 inline constexpr std::array<std::string_view, metric_plane_count> metric_names{
     "(metric 11)", "(metric 12)", "(metric 22)", "(area)", "(flow 11)", "(flow 12)", "(flow 22)"};
 
 /// The planes of a model's cells that kernels read (run/domain/model_cells.h).
 // clang-format off
 enum class ModelPlane : std::uint8_t {
-    number,  ///< The number of the cell, a word from which random numbers are computed.
-    area,  ///< In square units; 1 for cells that crawl; 0 in the padding of the last row.
-    x, y, z,     ///< The position in the model's box, scaled to a longest side of 1.
-    sx, sy, sz,  ///< The position in the box with every side scaled to 1.
+    number,  ///< The number of the cell: the word from which its random numbers are computed.
+    /// The area of the cell in square units. 1 for crawling cells, and 0 in the padding of the last
+    /// row.
+    area,
+    /// The position in the model's box if the box is scaled so that its longest side is 1.
+    x, y, z,
+    sx, sy, sz,  ///< The position in the model's box if every side of the box is scaled to 1.
     nx, ny, nz,  ///< The outward normal, of length 1.
     curvature,  ///< Turk's estimate of the curvature, in 1 / unit.
-    // The planes below are computed when they are first read (run/domain/surface_values.h).
-    curvature_mean, curvature_high, curvature_low,  ///< In 1 / unit.
-    curvature_gauss,                                ///< In 1 / unit².
+    // The following planes are computed when they are first read (run/domain/surface_values.h).
+
+    /// The mean, the larger and the smaller of the principal curvatures, in 1 / unit.
+    curvature_mean, curvature_high, curvature_low,
+    curvature_gauss,  ///< The Gaussian curvature, in 1 / unit².
     right_x, right_y, right_z,  ///< The direction of angle 0 (surface/cell_frames.h), of length 1.
-    down_x, down_y, down_z,     ///< The direction a quarter turn further, of length 1.
-    evenness,  ///< How evenly the cell's neighbours are spread, 0 … 1. Limits the ratio of a
-               ///< diffusion with a direction.
-    place_x, place_y, place_z,  ///< The position in units, from the middle of the model's box.
-    // Only for cells that crawl, in the script's lengths.
+    down_x, down_y, down_z,  ///< The direction a quarter turn from `right`, of length 1.
+    /// How evenly the cell's neighbours are spread, 0 … 1. The smaller it is, the less diffusion
+    /// may differ between directions.
+    evenness,
+    /// The position, in units, relative to the middle of the model's box.
+    place_x, place_y, place_z,
+    // The following planes exist only for crawling cells. Lengths are in the script's unit.
     off,      ///< The signed distance from the surface, positive on the side of the normal.
     feature,  ///< The square root of the area of the nearest triangle.
 };
@@ -64,20 +72,22 @@ inline constexpr std::array<std::string_view, model_plane_count> model_names{
 constexpr bool is_made_when_read(ModelPlane plane) { return plane >= ModelPlane::curvature_mean; }
 
 using SystemId = Id<struct SystemTag>;  ///< An index into Program::systems.
-/// An item of a system: a quantity or, numbered after all quantities, `frozen` or `speed`.
+/// The number of an item of a system: a quantity, `frozen` or `speed`. Quantities come first.
 using ItemId = Id<struct ItemTag>;
-using DefinitionId = Id<struct DefinitionTag>;      ///< An index into System::definitions.
-using TextId = Id<struct TextTag>;                  ///< A text in quotes, in Literals.
-using SurfaceValueId = Id<struct SurfaceValueTag>;  ///< An index into Literals.
+using DefinitionId = Id<struct DefinitionTag>;  ///< An index into System::definitions.
+/// An index into the texts of Literals. A text is written in quotes.
+using TextId = Id<struct TextTag>;
+/// An index into the surface values of Literals.
+using SurfaceValueId = Id<struct SurfaceValueTag>;
 
-/// An item of a stage.
+/// An item of an earlier stage.
 struct StageItem {
     std::uint32_t stage = 0;
     ItemId item;
     bool operator==(const StageItem&) const = default;
 };
 
-/// An item of an earlier stage of fields, at the position of a cell that crawls.
+/// An item of an earlier stage of fields, read at the position of a crawling cell.
 struct SensedItem {
     StageItem item;
     bool operator==(const SensedItem&) const = default;
@@ -89,25 +99,26 @@ struct Rate {
     bool operator==(const Rate&) const = default;
 };
 
-/// True inside the mask.
+/// 1 inside the mask, 0 outside.
 struct InsideMask {
     bool operator==(const InsideMask&) const = default;
 };
 
-/// A number that the kernel of a convolution can read. It describes the lag: the vector from the
-/// cell to the cell whose value is weighted.
+/// What the kernel of a convolution can read about the lag. The lag is the vector from the cell to
+/// the cell whose value is weighted.
 enum class LagPart : std::uint8_t {
     distance,  ///< The distance between the centres of both cells, in the script's unit.
     direction_x,
     direction_y,
-    direction_z  ///< Components of the unit vector along the lag; 0 at distance 0.
+    /// The three components of `direction` are a unit vector along the lag, or 0 at distance 0.
+    direction_z
 };
 inline constexpr std::size_t lag_part_count = 4;
 inline constexpr std::array<std::string_view, lag_part_count> lag_part_names{
     "distance", "direction.x", "direction.y", "direction.z"};
 
 /// The field that a constraint `0 = e` determines. `number` is the index of the constraint in
-/// Literals. Only e reads this node.
+/// Literals. Only e contains this node.
 struct Unknown {
     std::uint32_t number = 0;
     bool operator==(const Unknown&) const = default;
@@ -116,16 +127,16 @@ struct Unknown {
 /// A function with operands.
 struct Call {
     /// A number whose meaning depends on the function. For noise it is the number of octaves, for
-    /// parts of `transport` the axis, for `beside` the number of an Offset. For `convolve`,
-    /// `solved` and functions of files it is the index in Literals of the kernel, the constraint or
-    /// the FileReading.
+    /// the parts of `transport` the axis, and for `beside` the number of an Offset. For `convolve`,
+    /// `solved` and functions that read files it is an index in Literals: of the kernel, of the
+    /// constraint, or of the FileReading.
     std::uint32_t detail = 0;
     bool operator==(const Call&) const = default;
 };
 
 /// The kinds of nodes. An ItemId is an item of this stage, and a StageItem is an item of an earlier
-/// stage. If the item is a vector, it is the first of the vector's three components. Only lowering
-/// makes the kinds from SurfaceValueId to LagPart, except that the checker makes constants.
+/// stage. The id of a vector is the id of the first of its three components. Only lowering makes
+/// the kinds from SurfaceValueId to LagPart, except that the checker makes each SurfaceValueId.
 using NodeKind =
     std::variant<double, TextId, ItemId, StageItem, SensedItem, Builtin, CellValue, DefinitionId,
                  Rate, Call, SurfaceValueId, MetricPlane, ModelPlane, InsideMask, LagPart, Unknown>;
@@ -139,7 +150,8 @@ struct Node {
     NodeKind kind = 0.0;
     Span span = {};
     ValueType type = ValueType::number;
-    Function function = Function::add;  ///< The function of a call. Other kinds have no operands.
+    /// The function of a call. Nodes of other kinds have no operands.
+    Function function = Function::add;
     std::uint8_t operand_count = 0;
     Operands operands{};
 
@@ -148,12 +160,12 @@ struct Node {
         return std::holds_alternative<Kind>(kind);
     }
     bool is(const NodeKind& other) const { return kind == other; }
-    /// Null if the node is of another kind.
+    /// The node's kind as a Kind. Null if the node is of another kind.
     template <typename Kind>
     const Kind* as() const {
         return std::get_if<Kind>(&kind);
     }
-    /// The operands in use.
+    /// The operands that the node has.
     std::span<const NodeId> reads() const { return {operands.data(), operand_count}; }
     std::span<NodeId> reads() { return {operands.data(), operand_count}; }
     bool calls(Function called) const { return is<Call>() && function == called; }
@@ -162,8 +174,8 @@ struct Node {
 /// Whether the node draws random numbers.
 inline bool is_draw(const Node& node) { return node.is<Call>() && is_random(node.function); }
 
-/// Whether the node draws a separate number in each cell. Noise and lattices do not, because they
-/// depend on positions.
+/// Whether the node draws a separate number in each cell. Noise and lattices do not, because their
+/// values depend on positions.
 inline bool is_draw_in_cell(const Node& node) {
     return node.is<Call>() && info(node.function).kind == FunctionKind::draw;
 }
@@ -173,16 +185,16 @@ inline bool is_aggregate(const Node& node) {
     return node.is<Call>() && info(node.function).is_aggregate;
 }
 
-/// The kind of reduction of a sum, mean, min or max over cells; empty for other functions.
+/// The reduction that a sum, mean, min or max over cells performs. nullopt for other functions.
 std::optional<ReductionKind> reduction_of(Function function);
 
-/// The operands whose values must be computed before the node. None for a constraint, because its
+/// The operands whose values must be computed before the node. Empty for a constraint, because its
 /// operand is computed while the constraint is solved.
 inline std::span<const NodeId> operands_of(const Node& node) {
     return node.calls(Function::solved) ? std::span<const NodeId>() : node.reads();
 }
 
-/// Whether the node is computed from whole planes.
+/// Whether the node can only be computed from whole planes.
 inline bool is_nonlocal(const Node& node) { return node.is<Call>() && is_nonlocal(node.function); }
 
 using Nodes = IdVector<NodeId, Node>;
@@ -193,8 +205,8 @@ struct Formula {
     Nodes nodes;
 };
 
-/// The formula whose last node is `root`. It consists of all nodes that `root` needs, directly or
-/// indirectly, in the order of `nodes`.
+/// The formula whose last node is `root`. It consists of all nodes that `root` reads, directly or
+/// indirectly, in the order that they have in `nodes`.
 Formula formula_of(const Nodes& nodes, NodeId root);
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
 // Rewrites a formula node by node. If the value of a node depends on lengths, multiplies it by
-// scales, or replaces it by a sum of such products.
+// scales, or replaces it by a sum of products with scales.
 #include "lang/program/growing_formula.h"
 
 #include "lang/vocabulary/function_groups.h"
@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::array second_derivatives{Function::dxx, Function::dyy, Function::dzz};
 
-/// Whether a formula of numbers and t is certainly above 0 for all t from 0 on.
+/// Whether a formula of numbers and t is certainly above 0 for every t ≥ 0.
 bool is_above_zero(const Formula& formula) {
     enum Sign { unknown, not_below, above };
     IdVector<NodeId, Sign> signs;
@@ -84,7 +84,7 @@ NodeId GrowingFormula::scale(std::size_t axis) {
     return *scales_[axis];
 }
 
-/// Makes the value non-finite once the domain has shrunk to nothing, so that the run ends then.
+/// Makes the value non-finite when the domain has shrunk to nothing, so that the run ends.
 NodeId GrowingFormula::sound(NodeId value, std::size_t axis) {
     if (is_above_zero(growth_.scale[axis])) return value;
     const NodeId zero = number(0), length = copied(growth_.scale[axis]);
@@ -168,7 +168,7 @@ NodeId GrowingFormula::times_scale(const Node& node) {
     return product(node.operands[0], scale(own));
 }
 
-/// White noise is divided by the root of a cell's content.
+/// Divides white noise by the square root of a cell's content (its length, area or volume).
 NodeId GrowingFormula::white(NodeId value) {
     std::optional<NodeId> content;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -192,8 +192,8 @@ NodeId GrowingFormula::component(NodeId vector, std::size_t axis) {
     return call(Function::component, {vector, which});
 }
 
-/// A vector whose components are divided by the scales of `axes`. It is a product with a tensor,
-/// because such a product has values at faces, too.
+/// Divides the components of a vector by the scales of `axes`. The result is a product with a
+/// tensor, because this product also has values at faces.
 NodeId GrowingFormula::scaled_vector(NodeId vector, const std::array<std::size_t, 3>& axes) {
     const auto entry = [&](std::size_t k) {
         return changes(axes[k]) ? inverse(axes[k]) : number(1);
@@ -223,7 +223,7 @@ NodeId GrowingFormula::curl(const Node& node) {
     return call(Function::vector, {x, y, part(0, 1)}, ValueType::vector);
 }
 
-/// Transport by a velocity, given as a vector or by components.
+/// Rewrites a transport by a velocity. The velocity is a vector or is given by its components.
 NodeId GrowingFormula::carried(Node node) {
     if (node.operand_count == 2 && result_.nodes[node.operands[0]].type == ValueType::vector) {
         node.operands[0] = scaled_vector(node.operands[0], {0, 1, 2});
@@ -235,7 +235,7 @@ NodeId GrowingFormula::carried(Node node) {
     return append(node);
 }
 
-/// An operator whose axes have different scales.
+/// Rewrites an operator axis by axis, because the axes have different scales.
 NodeId GrowingFormula::by_axes(const Node& node) {
     const NodeId of = node.reads().back();
     if (const Derivative derivative = derivative_of(node.function); derivative.order > 0) {

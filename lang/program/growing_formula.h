@@ -1,4 +1,4 @@
-// Rewrites a formula for a domain that grows (internal to grown_lengths.cpp).
+// Rewrites formulas for a domain that grows (internal to grown_lengths.cpp).
 #pragma once
 
 #include "lang/program/program.h"
@@ -11,7 +11,7 @@
 
 namespace cascade {
 
-/// Rewrites one formula. Each of the public functions may be called once.
+/// Rewrites one formula. Only one public function may be called, and only once.
 class GrowingFormula {
 public:
     GrowingFormula(const Growth& growth, const DomainSettings& domain)
@@ -19,7 +19,7 @@ public:
           is_surface_(domain.model || domain.surface),
           stencil_(is_surface_ ? Stencil{true, true, false} : domain.grid.stencil()) {}
 
-    /// The formula, rewritten for lengths that grow.
+    /// The formula in which lengths grow.
     Formula rewritten(const Formula& formula);
     /// rate − dilution · species
     Formula diluted(const Formula& rate, ItemId species);
@@ -40,7 +40,7 @@ private:
         std::ranges::copy(operands, node.operands.begin());
         return append(node);
     }
-    /// The type of a product is the type of its second factor.
+    /// The product of a and b. It has the type of b.
     NodeId product(NodeId a, NodeId b) {
         return call(Function::multiply, {a, b}, result_.nodes[b].type);
     }
@@ -55,8 +55,8 @@ private:
     bool changes(std::size_t axis) const {
         return !growth_.scale[axis].nodes.back().is(NodeKind(1.0));
     }
-    /// The first axis with more than one cell. In uniform growth, its scale is the scale of all
-    /// axes.
+    /// The first axis with more than one cell. In uniform growth, all axes have the scale of this
+    /// axis.
     std::size_t main_axis() const { return has_axis(0) ? 0 : has_axis(1) ? 1 : 2; }
 
     NodeId scale(std::size_t axis);

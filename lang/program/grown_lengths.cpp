@@ -1,4 +1,5 @@
-// Gives each stage whose domain grows its own system, with the growth in its formulas.
+// Gives each stage whose domain grows its own copy of its system, and writes the growth into the
+// formulas.
 #include "lang/program/grown_lengths.h"
 
 #include "lang/program/evaluate.h"
@@ -12,7 +13,7 @@ namespace cascade {
 
 namespace {
 
-/// The growth with every length fixed at its value at t = 0.
+/// The same growth, but with every length fixed at its value at t = 0.
 Growth at_start(Growth growth) {
     for (Formula& scale : growth.scale) {
         scale = {{Node{evaluate(scale, BuiltinValues{})}}};
@@ -63,9 +64,9 @@ private:
         }
     }
 
-    /// If a formula reads the rate of a species, makes the undiluted rate a definition, which both
-    /// this formula and the new rate read. The definition has the name of a rate, so that it draws
-    /// the same random numbers.
+    /// If a formula reads the rate of a species, makes the undiluted rate a definition. That
+    /// formula and the new, diluted rate then read this definition. The definition has the name of
+    /// a rate, so that it draws the same random numbers.
     void keep_rate(ItemId species) {
         const NodeKind rate = Rate{species};
         const auto reads = [&](const Formula& formula) {
@@ -99,8 +100,8 @@ private:
             if (!takes_value(setting.kind)) continue;
             setting.value = grown(setting.value);
             if (setting.kind == SideKind::fixed) continue;
-            // The border of a mask has no axis, so its slopes and fluxes are refused if axes grow
-            // differently.
+            // The border of a mask has no axis. So slopes and fluxes at this border are refused if
+            // axes grow differently, and the main axis stands for all axes here.
             const std::size_t axis = side < side_count ? side / 2 : main_axis();
             const bool is_slope = setting.kind == SideKind::slope;
             setting.value =

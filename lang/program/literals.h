@@ -1,5 +1,5 @@
-// Objects to which formulas refer by an index: texts, kernels of convolutions, constraints, values
-// of surfaces, and readings of files.
+// Objects to which formulas refer by an index: texts, kernels of convolutions, constraints, surface
+// values, and readings of files.
 #pragma once
 
 #include "core/picture_channel.h"
@@ -16,52 +16,55 @@ namespace cascade {
 /// or along(…) with constant arguments.
 struct SurfaceValue {
     Function function = Function::distance;
-    std::vector<double> numbers;  ///< The arguments as they are written. For along(…),
-                                  ///< DirectionSettings::numbers.
-    // For along(…) only.
+    /// The arguments as the script gives them. For along(…), DirectionSettings::numbers.
+    std::vector<double> numbers;
+    // Used only by along(…).
     DirectionSettings::Kind direction = DirectionSettings::Kind::axis;
     double smoothing = 0;
 
     friend bool operator==(const SurfaceValue&, const SurfaceValue&) = default;
 };
 
-/// The part of a file that a function reads, and how.
+/// Which part of a file a function reads, and in which way.
 struct FileReading {
     PictureChannel channel = PictureChannel::lightness;
-    bool is_direction = false;  ///< Whether the value is the angle of a painted direction.
-    /// The position in the file at which to read: coordinates 0 … 1 from the left, from the top and
-    /// from the first slice, as formulas of numbers and of the cell's position. If empty, the
-    /// position corresponds to the cell's position in the domain.
+    /// Whether the value that is read is the angle of a painted direction.
+    bool is_direction = false;
+    /// The position in the file at which to read. The coordinates go from 0 to 1 from the left,
+    /// from the top and from the first slice, and are formulas of numbers and of the cell's
+    /// position. If empty, the position in the file is the cell's position in the domain.
     std::vector<Formula> place = {};
 };
 
 /// A constraint `0 = e`, which determines a field.
 struct Constraint {
     std::string unknown;  ///< The name of the field.
-    Span span;            ///< The span of e.
+    Span span;            ///< Where e is in the script.
 };
 
-/// The kernel of a convolution. `weight` is a formula of numbers, uniform parameters, and
-/// `distance` and `direction` from the cell to the weighted cell (CellValue).
+/// The kernel of a convolution. `weight` is a formula of numbers, of uniform parameters, and of
+/// `distance` and `direction` (CellValue) from the cell to the cell whose value is weighted.
 struct ConvolutionKernel {
     Formula weight;
-    Formula reach;  ///< The largest distance of cells that count. If empty, all cells count.
+    Formula reach;  ///< Cells up to this distance are weighted. If empty, all cells are.
 };
 
-/// Stores objects that do not fit into a Node. Entries never change. If a picture's expression is
-/// checked after the program, its objects are added at the end. Not thread-safe.
+/// Stores objects that do not fit into a Node. Objects that have been added never change. If a
+/// picture's expression is checked after the program, its objects are added at the end. Not
+/// thread-safe.
 class Literals {
 public:
-    /// The id of an equal object, or of a new one.
+    /// The id of an equal text, or of a new text if there is none.
     TextId id_of(const std::string& text);
     SurfaceValueId id_of(const SurfaceValue& value);
     /// Adds a kernel or a constraint. Returns its index.
     std::uint32_t add(ConvolutionKernel kernel);
     std::uint32_t add(Constraint constraint);
-    /// Adds a reading, or finds an equal reading if `place` is empty. Returns the index.
+    /// Adds a reading and returns its index. If `place` is empty and an equal reading exists,
+    /// returns the index of that reading.
     std::uint32_t add(FileReading reading);
 
-    /// A text in quotes: the name of a palette, or a path.
+    /// The text with this id: the name of a palette, or a path.
     const std::string& text(TextId id) const { return texts_[id.index()]; }
     const SurfaceValue& surface_value(SurfaceValueId id) const {
         return surface_values_[id.index()];

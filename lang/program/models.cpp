@@ -1,4 +1,4 @@
-// Lists the functions that have no meaning on a model, with the reasons that messages give.
+// Lists the functions that have no meaning on a model, with the reasons for messages.
 #include "lang/program/models.h"
 
 #include "lang/program/cell_items.h"
@@ -14,8 +14,8 @@ namespace cascade {
 
 namespace {
 
-// The number of cells in a row: large enough that little padding is needed, and small enough that
-// rows can be divided evenly among threads.
+// The number of cells in a row. Rows are so long that little padding is needed, and so short that
+// they can be divided evenly among threads.
 constexpr std::int64_t cells_of_row = 512;
 
 /// The reason why an operator is refused on a model; "" if it is allowed.
@@ -38,8 +38,8 @@ std::string_view reason_against(Function function) {
     }
 }
 
-/// Whether every array that the formula reads is given a position in the file, because cells of a
-/// model are not in rows and columns. Otherwise reports an error.
+/// Whether the script gives a position in the file for every array that the formula reads.
+/// Otherwise reports an error, because cells of a model are not in rows and columns.
 bool arrays_have_places(const Program& program, const Formula& formula, Diagnostics& diagnostics) {
     bool have_places = true;
     for (const Node& node : formula.nodes) {
@@ -55,7 +55,7 @@ bool arrays_have_places(const Program& program, const Formula& formula, Diagnost
     return have_places;
 }
 
-/// The function of a node, if only models have its value. Empty for all other nodes.
+/// The function of a node, if the value exists only on models. nullopt for all other nodes.
 std::optional<Function> of_model_only(const Program& program, const Node& node) {
     if (const auto* id = node.as<SurfaceValueId>())
         return program.literals->surface_value(*id).function;
@@ -63,11 +63,12 @@ std::optional<Function> of_model_only(const Program& program, const Node& node) 
     return std::nullopt;
 }
 
-/// Finds vectors that are not sums of gradients times numbers. The flow of such vectors through a
-/// link of stretched cells is not known.
+/// Finds vectors that are not sums of gradients multiplied by numbers. The flow of such a vector
+/// through a link between stretched cells is not known.
 class LooseVectors {
 public:
-    /// Visits the definitions of a system in order. Each comes after the definitions that it reads.
+    /// Visits the definitions of a system in order. In this order, each definition comes after the
+    /// definitions that it reads.
     explicit LooseVectors(const System& system) {
         for (const Definition& each : system.definitions) {
             const auto found = in(each.formula);
@@ -150,7 +151,7 @@ bool has_meaning_on_plane(const Program& program, const Formula& formula,
 }
 
 /// Calls `take(formula, system)` for every formula that the stages compute. Formulas of a system
-/// are visited once.
+/// that several stages use are visited once.
 template <typename Take>
 void for_each_formula(const Program& program, const Take& take) {
     IdVector<SystemId, bool> used(program.systems.size());
@@ -184,8 +185,8 @@ struct NamedShape {
     ModelShape shape;
     std::string_view word;
 };
-/// The shapes that scripts name by a word. Files have paths instead, and implicit surfaces are
-/// formulas in brackets.
+/// The shapes whose name is a word in scripts. A file is named by its path, and an implicit surface
+/// by a formula in brackets.
 constexpr std::array named_shapes{
     NamedShape{ModelShape::sphere, "sphere"},     NamedShape{ModelShape::torus, "torus"},
     NamedShape{ModelShape::box, "box"},           NamedShape{ModelShape::knot, "knot"},
@@ -245,7 +246,8 @@ std::optional<ModelPlane> model_plane_of(Builtin builtin) {
 bool has_meaning_on_domain(const Program& program, const Formula& formula, const System& system,
                            Diagnostics& diagnostics) {
     if (!program.domain.model) return has_meaning_on_plane(program, formula, diagnostics);
-    // Functions that systems of cells do not have are refused where they are written.
+    // Here only arrays are checked in systems of cells, because other functions that these systems
+    // lack are refused where they are written.
     return system.cells ? arrays_have_places(program, formula, diagnostics)
                         : has_meaning_on_model(program, LooseVectors(system), formula, diagnostics);
 }

@@ -1,4 +1,5 @@
-// Programs on models: the grid of a model's cells, and functions that have no meaning on a domain.
+// Programs on models: the grid of a model's cells, and checks for functions that have no meaning on
+// the domain.
 #pragma once
 
 #include "core/diagnostics.h"
@@ -11,26 +12,27 @@
 
 namespace cascade {
 
-/// The largest number of cells of a model, 2^28, because elements of a plane are indexed by words
-/// of 32 bits.
+/// The largest number of cells of a model, 2^28. The limit exists because elements of a plane are
+/// indexed by words of 32 bits.
 inline constexpr double most_model_cells = 268435456;
 
-/// A grid whose rows hold this number of cells (Grid::linked).
+/// A grid whose rows hold `cells` cells (Grid::linked).
 Grid rows_of_cells(std::int64_t cells);
 
 /// Facts about a model's cells, known after the cells have been made. Until then,
-/// DomainSettings::grid has rows for the number of cells that the script sets.
+/// DomainSettings::grid has rows for as many cells as the script sets.
 struct ModelFacts {
-    Grid grid;                  ///< The rows that hold the cells.
-    double largest_weight = 0;  ///< The largest sum of the weights of one cell's links.
+    Grid grid;  ///< The rows that hold the cells.
+    /// The sum of the weights of a cell's links, for the cell with the largest sum.
+    double largest_weight = 0;
 };
 
-/// The shape called `word`, such as sphere. Empty if there is no such shape.
+/// The shape that `word` names in scripts, such as sphere. nullopt if there is no such shape.
 std::optional<ModelShape> shape_named(std::string_view word);
 /// The name of a shape in scripts; empty for a file.
 std::string_view word_of(ModelShape shape);
 
-/// The plane of a model that contains a built-in value; empty for t and step.
+/// The plane of a model that contains a built-in value. nullopt for t and step.
 std::optional<ModelPlane> model_plane_of(Builtin builtin);
 
 /// Reports every function in a formula (of fields or of cells that crawl) that has no meaning on

@@ -1,4 +1,4 @@
-// Tests of nodes, and searches in the formulas of a system's rates and of a stage's sides.
+// Tests of nodes, and searches in the formulas of rates and in the formulas of rules at sides.
 #pragma once
 
 #include "lang/program/program.h"
@@ -8,13 +8,13 @@
 
 namespace cascade {
 
-/// Whether the node is a species of the formula's own stage.
+/// Whether the node reads a species of the formula's own stage.
 inline bool is_species(const System& system, const Node& node) {
     const auto* item = node.as<ItemId>();
     return item != nullptr && system.is_species(*item);
 }
 
-/// Whether the node is the time t or the number of completed steps.
+/// Whether the node reads the time t or the number of completed steps.
 inline bool is_moment(const Node& node) { return node.is(Builtin::t) || node.is(Builtin::step); }
 
 /// Whether `test` holds for some node of the formula.
@@ -23,8 +23,8 @@ bool holds_in(const Formula& formula, const Test& test) {
     return std::any_of(formula.nodes.begin(), formula.nodes.end(), test);
 }
 
-/// The first node of a definition, or else of a rate, for which `test` holds; null if there is
-/// none.
+/// The first node for which `test` holds, in the definitions and then in the rates; null if there
+/// is none.
 template <typename Test>
 const Node* find_in_rates(const System& system, const Test& test) {
     const auto find_in = [&](const Formula& formula) -> const Node* {
@@ -40,8 +40,8 @@ const Node* find_in_rates(const System& system, const Test& test) {
     return nullptr;
 }
 
-/// Calls visit(kernel) for the kernels of all convolutions of a stage: in its values, rates,
-/// definitions, picture and condition for its end.
+/// Calls visit(kernel) for the kernel of each convolution in a stage: in its values, rates,
+/// definitions, picture and end condition (`until`).
 template <typename Visit>
 void for_each_kernel_of_stage(const Program& program, std::uint32_t stage, const Visit& visit) {
     const Stage& own = program.stages[stage];
@@ -61,7 +61,7 @@ bool holds_in_rates(const System& system, const Test& test) {
     return find_in_rates(system, test) != nullptr;
 }
 
-/// Whether `test` holds for some node of the rules at the sides of a stage.
+/// Whether `test` holds for some node in the rules at the sides of a stage.
 template <typename Test>
 bool holds_in_sides(const Stage& stage, const Test& test) {
     const auto is_in = [&](const auto& sides) {

@@ -11,7 +11,7 @@ enum class State : std::uint8_t { untouched, open, finished };
 
 struct Visit {
     std::uint32_t value = 0;
-    std::size_t next = 0;  ///< The position of the next dependency to visit.
+    std::size_t next = 0;  ///< The index of the next dependency to visit.
 };
 
 class Sorter {
@@ -48,8 +48,8 @@ private:
         }
     }
 
-    /// Adds the part of the path from `first` to the end as a cycle. Leaves out a cycle that shares
-    /// a value with a known cycle, because both probably have the same cause.
+    /// Adds the part of the path from `first` to the end as a cycle. A cycle that shares a value
+    /// with a known cycle is not added, because both probably have the same cause.
     void add_cycle(std::uint32_t first) {
         std::size_t begin = path_.size();
         while (path_[begin - 1].value != first) {

@@ -6,19 +6,19 @@
 
 namespace cascade {
 
-/// Element i lists the numbers of the values that must be computed before value i.
+/// Element i lists the numbers of all values that must be computed before value i.
 using Dependencies = std::vector<std::vector<std::uint32_t>>;
 
 struct Order {
-    std::vector<std::uint32_t> order;  ///< All values. Each comes after the values that it reads.
-                                       ///< Meaningless if there are cycles.
-    /// Each value of a cycle reads the next one, and the last reads the first. No value is in two
-    /// cycles.
+    /// All values, each after the values that it reads. Meaningless if there are cycles.
+    std::vector<std::uint32_t> order;
+    /// In each cycle, every value reads the next value, and the last value reads the first. No
+    /// value is in two cycles.
     std::vector<std::vector<std::uint32_t>> cycles;
 };
 
-/// A depth-first topological sort. Its stack is explicit, so deep dependencies cannot overflow the
-/// program's stack. Values stay in the order of their numbers as far as possible.
+/// Sorts values topologically, depth first. The stack is explicit, so deep dependencies cannot
+/// overflow the program's stack. As far as possible, values stay in the order of their numbers.
 Order topological_order(const Dependencies& reads);
 
 }  // namespace cascade

@@ -36,8 +36,7 @@ std::optional<ReductionKind> reduction_of(Function function) {
 }
 
 TextId Literals::id_of(const std::string& text) {
-    // Only the last few texts are compared, so that the time does not grow with the number of
-    // texts.
+    // Only the last 64 texts are compared, so that the time does not grow with the number of texts.
     const std::size_t count = texts_.size();
     for (std::size_t i = count; i > 0 && count - i < 64; --i) {
         if (texts_[i - 1] == text) return TextId(i - 1);
@@ -98,7 +97,8 @@ bool differs_by_cell(const Node& node, bool operand_differs, const Program& prog
                    item_differs({stage, program.system_of(stage).speed_item()});
         },
         [&](Call) {
-            // An aggregate over the domain is one number for any operand.
+            // An aggregate over the domain is a single number, even if its operand differs between
+            // cells.
             if (info(node.function).is_aggregate) return false;
             return operand_differs ||
                    (varies_by_cell(node.function) && !differentiates(node.function));

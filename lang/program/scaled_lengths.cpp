@@ -1,4 +1,4 @@
-// Multiplies every call that depends on lengths by a power of the factor.
+// Multiplies every call whose value depends on lengths by a power of the factor.
 #include "lang/program/scaled_lengths.h"
 
 #include <cmath>
@@ -12,14 +12,14 @@ namespace {
 double power_of_length(Function function, const DomainSettings& domain) {
     switch (function) {
         case Function::domain_sum:
-            return domain.model ? -2 : 0;  // The sum is an integral only on
-                                           // models.
+            // Only on models is the sum an integral.
+            return domain.model ? -2 : 0;
         case Function::white:
-            return axes_of(domain) / 2.0;  // Divided by the square root of a
-                                           // cell's content.
+            // White noise is divided by the square root of a cell's content.
+            return axes_of(domain) / 2.0;
         case Function::convolve:
-            return -axes_of(domain);  // An integral over lengths, areas or
-                                      // volumes.
+            // A convolution is an integral over lengths, areas or volumes.
+            return -axes_of(domain);
         default: return info(function).lengths;
     }
 }
@@ -40,8 +40,8 @@ NodeId scaled(Formula& formula, NodeId id, double factor) {
     return append(formula, product);
 }
 
-/// The kernel for scaled lengths: a distance that is `factor` times as long gets the weight that
-/// the original distance had.
+/// The kernel for scaled lengths. At a distance that is `factor` times as long, its weight is the
+/// weight that the given kernel has at the original distance.
 ConvolutionKernel with_lengths(const ConvolutionKernel& kernel, double factor) {
     ConvolutionKernel result;
     IdVector<NodeId, NodeId> place;

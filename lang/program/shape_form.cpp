@@ -1,5 +1,5 @@
-// Evaluates formulas of shapes. Nodes are sorted by the variables on which they depend, and
-// computed again only when such a variable changes.
+// Evaluates formulas of shapes. Nodes are grouped by the variables on which they depend, and a node
+// is computed again only when one of these variables changes.
 #include "lang/program/shape_form.h"
 
 #include "core/check.h"

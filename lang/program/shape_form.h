@@ -16,36 +16,41 @@ namespace cascade {
 /// The largest number of parts of a shape.
 inline constexpr std::uint32_t most_shape_parts = 1000;
 
-/// Formulas consist of numbers, items, and functions of numbers and vectors. They read no
-/// definitions. A formula that the script does not give is empty.
+/// The formulas consist of numbers, items, and functions of numbers and vectors. They read no
+/// definitions. A formula that the script does not give has no nodes.
 struct ShapeForm {
-    /// Values that formulas read besides the quantities. They are the first items.
+    /// Values, besides the quantities, that formulas can read. They are the first items.
     enum Known : std::uint32_t { t, s, part, known_count };
 
     std::string name;
-    Span span;  ///< The span of the name.
+    Span span;  ///< Where the name is in the script.
     bool built_in = false;
-    IdVector<ItemId, Quantity> quantities;  ///< First the values of Known, then the shape's own
-                                            ///< quantities.
-    std::vector<double> usual;  ///< For each quantity, the value if a picture gives none.
-    Formula place;              ///< The position of a point, a vector. Empty if `radius` is given.
-    Formula radius, middle;     ///< A tube: its radius, a number, and the line in its middle, a
-                                ///< vector. If `middle` is empty, the line goes straight up to 1.
-    Formula shade;              ///< A number, 0 … 1.
+    /// First the values of Known, then the shape's own quantities.
+    IdVector<ItemId, Quantity> quantities;
+    /// For each quantity, the value that applies if a picture gives no value.
+    std::vector<double> usual;
+    /// The position of a point of the surface, as a vector. Empty if `radius` is given.
+    Formula place;
+    /// If the shape is a tube: its radius, as a number, and the line in its middle, as a vector. If
+    /// `middle` is empty, the line goes straight up from 0 to 1.
+    Formula radius, middle;
+    Formula shade;  ///< The shade of the surface, a number in 0 … 1.
     std::uint32_t parts = 1;
 
-    /// The quantity of this name. Empty if there is none that pictures can set.
+    /// The quantity with this name. nullopt if there is no such quantity, or if pictures cannot set
+    /// it.
     std::optional<ItemId> find(std::string_view quantity) const;
 };
 
 /// Computes a formula of a shape at points of one part, in binary64. Nodes that depend on neither t
-/// nor s are computed once, and nodes that do not depend on s once for each t. Not thread-safe.
+/// nor s are computed only once. Nodes that depend on t but not on s are computed once for each t.
+/// Not thread-safe.
 class ShapeFunction {
 public:
     /// `values` are indexed by item. The values of Known are ignored. `formula` must not be empty.
     ShapeFunction(const Formula& formula, std::span<const double> values, double part);
 
-    /// The value at t and s. If the formula is a number, the result's x is this number.
+    /// The value of the formula at t and s. If this value is a number, it is the x of the result.
     Vector3d operator()(double t, double s);
 
 private:
@@ -53,7 +58,8 @@ private:
 
     Nodes nodes_;
     IdVector<NodeId, Vector3d> values_;
-    std::vector<NodeId> of_t_, of_s_;  ///< Nodes that depend on t only, and nodes that depend on s.
+    /// The nodes that depend only on t, and the nodes that depend on s.
+    std::vector<NodeId> of_t_, of_s_;
     std::vector<NodeId> reads_t_, reads_s_;
     std::optional<double> t_;  ///< The t for which the stored values were computed.
 };

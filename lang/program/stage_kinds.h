@@ -1,4 +1,4 @@
-// Distinguishes the stages of fields from the stages of cells that crawl.
+// Distinguishes stages of fields from stages of crawling cells.
 #pragma once
 
 #include "lang/program/program.h"
@@ -8,18 +8,18 @@
 
 namespace cascade {
 
-/// Whether the stage's system is a block of cells. False while its system is not known.
+/// Whether the stage's system is a block of cells. False if the system is not known yet.
 bool is_of_cells(const Program& program, std::uint32_t stage);
 
 bool has_stage_of_cells(const Program& program);
 bool has_stage_of_fields(const Program& program);
 
-/// The last stage of cells before this stage. Empty if there is none. Unless this stage has
-/// founders, it continues with the cells of that stage.
+/// The last stage of crawling cells before `stage`. nullopt if there is none. If `stage` has no
+/// founders, it continues with the cells of that earlier stage.
 std::optional<std::uint32_t> stage_of_cells_before(const Program& program, std::uint32_t stage);
 
-/// The last stage of fields before `stage`. Empty if there is none. If `stage` grows cells, the
-/// formula for the colour of the skin below the cells reads names of that earlier stage.
+/// The last stage of fields before `stage`. nullopt if there is none. If `stage` grows cells, names
+/// in the formula for the colour of the skin below the cells refer to that earlier stage.
 std::optional<std::uint32_t> stage_of_fields_before(const Program& program, std::uint32_t stage);
 
 }  // namespace cascade

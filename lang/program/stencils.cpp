@@ -1,4 +1,4 @@
-// The table of differences, and functions that follow from it.
+// The table of differences, and functions that use it.
 #include "lang/program/stencils.h"
 
 #include <algorithm>
@@ -32,9 +32,9 @@ constexpr std::array difference_rows = [] {
     };
 }();
 
-/// A difference over all axes. For grids with one, two and three axes: the weight of the neighbours
-/// along axes (N, S, E, W, U and D), of the diagonal neighbours, and of the cell itself. The
-/// isotropic Laplacian comes from Patra & Karttunen (2006).
+/// A difference over all axes. weights[n − 1] is for grids with n axes, and contains the weight of
+/// each neighbour along an axis, of each diagonal neighbour, and of the cell itself. The isotropic
+/// Laplacian comes from Patra & Karttunen (2006).
 struct Star {
     Difference difference;
     std::array<std::array<int, 3>, 3> weights;
@@ -51,9 +51,9 @@ static_assert(difference_rows.size() + stars.size() == difference_count,
               "every difference has a row");
 
 // Bounds of the symbols, with X = 4 sin²(θ/2) for each axis. On n axes the sum of X is at most 4 n,
-// and the sum of X + X²/12 at most 16/3 n. The sum of X minus the sum of XY/6 over pairs of axes is
-// at most 16/3, its value if X is 4 along two axes. sin θ is at most 1, and sin θ (1 + 2/3
-// sin²(θ/2)) at most 1.3723.
+// and the sum of X + X²/12 is at most 16/3 n. The sum of X minus the sum of XY/6 over pairs of axes
+// is at most 16/3, and reaches this bound if X is 4 along two axes. sin θ is at most 1, and sin θ
+// (1 + 2/3 sin²(θ/2)) is at most 1.3723.
 // clang-format off
 constexpr std::array stencil_rows = [] {
     using enum Difference;

@@ -27,13 +27,13 @@ struct ParameterRange {
 
 /// A species or a parameter of a system.
 struct Quantity {
-    std::string name;  ///< A member of a family has a name such as `u[2]`.
-    Span span;         ///< The place of its declaration.
+    std::string name;  ///< The name. A member of a family has a name such as `u[2]`.
+    Span span;         ///< Where the quantity is declared.
     bool is_species = false;
-    std::string doc;  ///< The text of its doc comment; may be empty.
+    std::string doc;  ///< The doc comment; may be empty.
     std::optional<ParameterRange> range;
-    Formula start;  ///< The default value. An ItemId in it is an item of the stage that uses the
-                    ///< system.
+    /// The default value. An ItemId in this formula is an item of the stage that uses the system.
+    Formula start;
 };
 
 struct Definition {
@@ -44,30 +44,31 @@ struct Definition {
 
 struct Invariant {
     ItemId species;
-    bool at_least = true;  ///< Whether the bound is the smallest value of the species. If false,
-                           ///< it is the largest.
-    Formula bound;         ///< A formula of numbers and parameters.
+    /// Whether the bound is the species' smallest value. If false, the bound is the largest value.
+    bool at_least = true;
+    Formula bound;  ///< The bound, as a formula of numbers and parameters.
 };
 
-/// Settings of time. A system may set them as defaults, and a stage may replace these.
+/// Settings of time. A system may set defaults, and a stage may replace them.
 struct TimeSettings {
     std::optional<Solver> solver;
-    Span solver_span;  ///< The place of the solver in the script.
+    Span solver_span;  ///< Where the solver is in the script.
     std::optional<double> tolerance;
     std::optional<double> duration;
-    std::optional<bool> automatic_speed;  ///< `speed: auto`; false if `speed` is an expression.
-    std::optional<Formula> until;         ///< The condition of `until`.
-    std::optional<double> steady;         ///< The number of `until: steady(…)`.
+    /// True for `speed: auto`. False if `speed` is an expression.
+    std::optional<bool> automatic_speed;
+    std::optional<Formula> until;  ///< The condition in `until`.
+    std::optional<double> steady;  ///< The number in `until: steady(…)`.
     std::optional<std::int64_t> check;
     std::optional<double> every;
     Span every_span;
     std::optional<double> largest_step;
     Span largest_step_span;
-    std::optional<std::int64_t> coarse;  ///< `start: coarse(…)`.
+    std::optional<std::int64_t> coarse;  ///< The number in `start: coarse(…)`.
     Span coarse_span;
 };
 
-/// Settings that a system may set as defaults and a stage may replace.
+/// Settings for which a system may set defaults that a stage may replace.
 struct Settings {
     std::optional<std::int64_t> iterations;
     std::optional<std::int64_t> interval;
@@ -87,17 +88,17 @@ struct Index {
     std::int64_t high = 1;
 };
 
-/// The rule at a side for a species.
+/// The rule for a species at one side.
 struct SideSetting {
     SideKind kind = SideKind::no_flux;
-    Formula value;  ///< For fixed, slope and flux. An ItemId is an item of the stage.
-    Span span;      ///< The place of the rule in the script. Empty for a rule of the domain.
+    /// The value for the kinds fixed, slope and flux. An ItemId in it is an item of the stage.
+    Formula value;
+    Span span;  ///< Where the rule is in the script. Empty for a rule of the domain.
 };
 
 using SideSettings = std::array<SideSetting, wall_count>;
 
-/// A definition that has rules at sides, with these rules. At sides without a rule the definition
-/// is mirrored.
+/// The rules at sides of a definition. At sides without a rule the definition is mirrored.
 struct DefinitionSides {
     DefinitionId definition;
     SideSettings sides;
@@ -112,22 +113,27 @@ struct SubjectSide {
     SideSetting setting;
 };
 
-/// The parts that only systems of cells that crawl have (spec/cells.md). The formulas read no
+/// The parts that only systems of crawling cells have (spec/cells.md). The formulas read no
 /// definitions.
 struct CellRules {
-    ItemId place;  ///< The item of the first of the three components.
-    ItemId frame;  ///< The item of the first of the four components w, x, y, z of a quaternion.
+    ItemId place;  ///< The first of the three components of the position.
+    ItemId frame;  ///< The first of the four components w, x, y, z of the frame, a quaternion.
     ItemId radius, age;
-    DefinitionId velocity, spin;  ///< Vectors: the sums of the terms of p' and of turn'.
-    Formula divide, die;          ///< Conditions, as numbers. If empty, cells never divide or die.
-    Formula along;   ///< The direction of a division, a vector. If empty, a random direction
-                     ///< perpendicular to the normal.
-    Formula ey, ez;  ///< Axes at the start, as vectors. If one is empty, starting_frame() chooses
-                     ///< it.
-    IdVector<ItemId, Formula> restarts;  ///< For each item, its value after a division. If empty,
-                                         ///< both cells inherit the value.
-    double reach = 1.2;         ///< Cells touch up to this multiple of the sum of their radii.
-    std::vector<Formula> near;  ///< The distances of `over near(d)`, the same for all cells.
+    DefinitionId velocity, spin;  ///< The sums of the terms of p' and of turn', as vectors.
+    /// Conditions that are true if they are not 0. If empty, cells never divide or never die.
+    Formula divide, die;
+    /// The direction of a division, as a vector. If empty, the direction is random and
+    /// perpendicular to the normal.
+    Formula along;
+    /// The axes of the frame at the start, as vectors. An empty axis is chosen by starting_frame().
+    Formula ey, ez;
+    /// For each item, its value after a division. If a formula is empty, both new cells inherit the
+    /// value.
+    IdVector<ItemId, Formula> restarts;
+    /// Two cells touch if their distance is at most this number times the sum of their radii.
+    double reach = 1.2;
+    /// The distances d of `over near(d)`, which are the same for all cells.
+    std::vector<Formula> near;
 
     /// Whether the item is a component of the position or of the frame. Scripts cannot name these
     /// components.
@@ -139,7 +145,7 @@ struct CellRules {
     }
 };
 
-/// The formulas of divide, die, along, of values that restart after a division, and of the
+/// The formulas of divide, die and along, of values that restart after a division, and of the
 /// distances of `near`. Some of these formulas may be empty.
 std::vector<const Formula*> rules_of(const CellRules& cells);
 
@@ -147,23 +153,24 @@ struct System {
     std::string name;
     Span span;
     bool built_in = false;
-    std::optional<SystemId> base;                    ///< The system from which it is derived.
-    std::vector<SystemId> joined;                    ///< For cells: the bases after the first.
-    std::string doc;                                 ///< The text of its doc comment; may be empty.
-    std::string title, cite, about;                  ///< Texts for readers; may be empty.
-    std::vector<Index> indices;                      ///< Families become quantities u[1], u[2], …
-    IdVector<ItemId, Quantity> quantities;           ///< In order of writing.
-    IdVector<DefinitionId, Definition> definitions;  ///< Each comes after the definitions that it
-                                                     ///< reads.
-    IdVector<ItemId, Formula> rates;  ///< For each quantity. Parameters have a formula without
-                                      ///< nodes.
-    std::vector<ItemId> rate_order;   ///< The species. Each comes after the species whose rates its
-                                      ///< own rate reads.
+    std::optional<SystemId> base;    ///< The system from which this system is derived.
+    std::vector<SystemId> joined;    ///< The bases after the first base; only for crawling cells.
+    std::string doc;                 ///< The doc comment; may be empty.
+    std::string title, cite, about;  ///< Texts for readers; may be empty.
+    std::vector<Index> indices;      ///< The indices. A family becomes quantities u[1], u[2], …
+    IdVector<ItemId, Quantity> quantities;  ///< In the order of the script.
+    /// Each definition comes after the definitions that it reads.
+    IdVector<DefinitionId, Definition> definitions;
+    /// The rate of each quantity. For a parameter, the formula has no nodes.
+    IdVector<ItemId, Formula> rates;
+    /// The species. Each species comes after the species whose rates its own rate reads.
+    std::vector<ItemId> rate_order;
     std::vector<Invariant> invariants;
-    std::vector<SubjectSide> sides;  ///< A later rule replaces an earlier rule for the same side
-                                     ///< and subject.
+    /// A later rule replaces an earlier rule for the same side and subject.
+    std::vector<SubjectSide> sides;
     Settings settings;
-    std::optional<CellRules> cells;  ///< For a `cells` block.
+    /// The rules for crawling cells, if the system is a `cells` block.
+    std::optional<CellRules> cells;
 
     // The items of a stage are its system's quantities, then `frozen`, then `speed`.
     ItemId frozen_item() const { return quantities.next(); }
@@ -171,8 +178,8 @@ struct System {
     std::size_t item_count() const { return quantities.size() + 2; }
     auto items() const { return ids_below<ItemId>(item_count()); }
     std::string_view item_name(ItemId item) const;
-    /// The name that enters the hash for random numbers of a starting value. All items of a frame
-    /// have the same name.
+    /// The name on which the random numbers of an item's starting value depend. All items of a
+    /// frame have the same name.
     std::string_view draw_name(ItemId item) const;
     bool is_species(ItemId item) const {
         return item < quantities.next() && quantities[item].is_species;
@@ -180,8 +187,8 @@ struct System {
     /// The species, in the order of their items.
     IdVector<SpeciesId, ItemId> species() const;
     std::optional<SpeciesId> species_of(ItemId item) const;
-    /// Whether each species has a rate and each definition a formula. After errors some may be
-    /// missing.
+    /// Whether each species has a rate and each definition has a formula. Some may be missing after
+    /// an error.
     bool is_complete() const;
     std::uint32_t species_count() const { return static_cast<std::uint32_t>(species().size()); }
 };

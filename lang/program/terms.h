@@ -1,4 +1,4 @@
-// Gives nodes of an expression graph operators and functions in C++, so that rules are written like
+// Gives nodes of an expression graph C++ operators and functions, so that rules can be written like
 // formulas: a * b + sqrt(c).
 #pragma once
 
@@ -11,8 +11,8 @@
 
 namespace cascade {
 
-/// A node of a graph. The graph must outlive the term. Applying a function to terms adds a node,
-/// whose type follows from lang/vocabulary/functions.def.
+/// A node of a graph. The graph must outlive the term. Applying a function to terms adds a node to
+/// the graph. The type of this node follows from lang/vocabulary/functions.def.
 struct Term {
     ExpressionGraph* graph = nullptr;
     NodeId id{};
@@ -30,8 +30,8 @@ struct Term {
         return {a.graph,
                 a.graph->call(function, {a.id, rest.id...}, type_of_result(function, types))};
     }
-    // Defines each function by its name in functions.def: sqrt(a), if_(c, a, b), grad(e),
-    // domain_sum(e).
+    // For each function of functions.def, defines a C++ function with its name: sqrt(a), if_(c, a,
+    // b), grad(e), domain_sum(e).
 #define CASCADE_FUNCTION(name, ...)              \
     template <std::same_as<Term>... Terms>       \
     friend Term name(Term a, Terms... rest) {    \
@@ -54,7 +54,7 @@ struct Term {
     }
 };
 
-/// A term whose sums and products are simplified if an operand is 0.
+/// A term whose sums and products are simplified if one of the operands is 0.
 struct SparseTerm {
     Term term;
 
@@ -77,7 +77,7 @@ struct SparseTerm {
     friend SparseTerm inverse(SparseTerm a) { return {inverse(a.term)}; }
 };
 
-/// Vectors as three components.
+/// A vector whose three components are terms.
 using TermVector = BasicVector3<Term>;
 using SparseVector = BasicVector3<SparseTerm>;
 

@@ -1,4 +1,5 @@
-// Replaces formulas that need the script's domain or the patterns of other stages.
+// Makes the trial program by replacing the formulas that need the script's domain or the patterns
+// of other stages.
 #include "lang/program/trial_program.h"
 
 #include "lang/program/nodes_of_rates.h"
@@ -24,7 +25,7 @@ bool is_of_place(const Node& node) {
            kind == FunctionKind::text || kind == FunctionKind::landmarks;
 }
 
-/// Whether the node needs files or the surface of a model, which a trial run does not have.
+/// Whether the node needs a file or the surface of a model. A trial run has neither.
 bool is_of_domain_alone(const Node& node) {
     return node.is<TextId>() || node.is<SurfaceValueId>() ||
            (node.is<Call>() && (reads_file(node.function) || needs_model(node.function)));
@@ -105,8 +106,8 @@ private:
         domain.fast = false;
     }
 
-    /// The first node because of which the value of a parameter depends on positions or on an
-    /// earlier pattern; null if the value exists on any plane.
+    /// The first node that makes the value of a parameter depend on positions or on an earlier
+    /// pattern. Null if the value can be computed on any plane.
     const Node* hindrance(const Formula& formula) const {
         const auto found = std::ranges::find_if(formula.nodes, [&](const Node& node) {
             if (is_of_place(node) || is_of_domain_alone(node) || differentiates_or_sums(node)) {
@@ -118,16 +119,16 @@ private:
         return found == formula.nodes.end() ? nullptr : &*found;
     }
 
-    /// Whether the value of this item of an earlier stage is unknown. Only parameters are known if
-    /// the stage has not run.
+    /// Whether the value of this item of an earlier stage is unknown. Only parameters of a stage
+    /// are known before it has run.
     bool is_hindered(const StageItem& read) const {
         const System& system = program_.system_of(read.stage);
         return system.cells || read.item >= system.frozen_item() || system.is_species(read.item) ||
                hindrance(program_.stages[read.stage].items[read.item]) != nullptr;
     }
 
-    /// Whether a species can start with this formula. The formula may depend on positions only if
-    /// it has a meaning on every plane.
+    /// Whether a species can start with this formula. The formula may depend on positions if it has
+    /// a meaning on every plane.
     bool can_start(const Formula& formula) const {
         return std::ranges::none_of(formula.nodes, [&](const Node& node) {
             const auto* read = node.as<StageItem>();
@@ -160,7 +161,8 @@ private:
                 formula = number(0);
                 stage.uniform[item] = true;
             } else if (system.is_species(item)) {
-                // On models, positions are positions in space.
+                // On a model the starting value is lost if it depends on positions, because these
+                // are positions in space.
                 const auto is_placed = [](const Node& node) { return is_of_place(node); };
                 const bool is_lost = program_.domain.model && holds_in(formula, is_placed);
                 if (!is_lost && can_start(formula)) continue;

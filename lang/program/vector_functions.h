@@ -1,8 +1,8 @@
 // Defines the functions of vectors once for all kinds of numbers and vectors.
 //
-// In a cell a vector is three numbers: doubles in shapes, otherwise terms of a graph
-// (of_components). In systems of fields, vectors can also be flows through faces, slopes or
-// symbols. Such vectors have only sums and multiples (vector_by). field_vectors.h rewrites all
+// In a cell a vector is three numbers (of_components): doubles in shapes, otherwise terms of a
+// graph. In systems of fields, vectors can also be flows through faces, slopes or symbols
+// (vector_by). Vectors of these kinds have only sums and multiples, so field_vectors.h rewrites all
 // other functions as sums and multiples.
 #pragma once
 
@@ -17,7 +17,7 @@ namespace cascade {
 
 inline double zero_like(double) { return 0; }
 
-/// The axis of a call of `component`.
+/// The axis that a call of `component` selects.
 template <typename Graph>
 std::size_t component_of(const Graph& nodes, const Node& call) {
     const Node& operand = nodes[call.operands[1]];
@@ -26,9 +26,9 @@ std::size_t component_of(const Graph& nodes, const Node& call) {
     return static_cast<std::size_t>(*axis);
 }
 
-/// The result of a call, given the components of its operands. A number is a vector with only x.
-/// Functions without a rule here, such as sums, work component by component: apply(numbers)
-/// computes a component from the same component of all operands.
+/// The result of a call, given the components of its operands. A number is stored as a vector of
+/// which only x is used. Functions without a rule here, such as sums, work component by component:
+/// apply(numbers) computes one component of the result from the same component of all operands.
 template <typename Number, typename Graph, typename Apply>
 BasicVector3<Number> of_components(const Graph& nodes, const Node& call,
                                    std::span<const BasicVector3<Number>> operands,
@@ -57,15 +57,15 @@ BasicVector3<Number> of_components(const Graph& nodes, const Node& call,
     return result;
 }
 
-/// Whether vector_by() has a rule for calls of this function whose result is a vector.
+/// Whether vector_by() has a rule for calls of this function that return a vector.
 inline bool makes_flux(Function function) {
     const FunctionInfo& row = info(function);
     const bool is_leaf = row.kind == FunctionKind::flux && row.result == ResultKind::vector;
     return is_leaf || row.kind == FunctionKind::arithmetic;
 }
 
-/// The result of a call that makes a vector of fields. `rules` compute gradients, components, sums,
-/// and products of a vector with a number or a tensor.
+/// The result of a call that returns a vector of fields. `rules` compute gradients, components,
+/// sums, and products of a vector with a number or a tensor.
 template <typename Rules, typename Graph>
 auto vector_by(Rules&& rules, const Graph& nodes, const Node& call) {
     const NodeId a = call.operands[0], b = call.reads().back();

@@ -1,5 +1,5 @@
-// Finds the verb in a hint, and then the text after it. Tries this text: changes the script, checks
-// it, and compares the messages before and after.
+// Finds the verb in a hint, and then the suggested text after the verb. Tries the suggestion:
+// changes the script, checks it, and compares the messages before and after.
 #include "lang/service/advice.h"
 
 #include <algorithm>
@@ -9,8 +9,8 @@
 namespace cascade {
 namespace {
 
-/// The x in 'x' at the start of a text. Empty if the closing quote is not followed by a blank or a
-/// sign.
+/// The x in 'x' at the start of a text. Empty unless the closing quote is followed by a blank, by
+/// one of ?,;: or by the end of the text.
 std::string_view inside_quotes(std::string_view text) {
     if (!text.starts_with("'")) return {};
     for (std::size_t end = text.find('\'', 2); end < text.size(); end = text.find('\'', end + 1)) {

@@ -99,7 +99,7 @@ std::vector<KnownName> names_of_language() {
     return names;
 }
 
-/// Sorts names. Of several equal names, keeps the first.
+/// Sorts names. If several names are equal, keeps only the first.
 std::vector<KnownName> sorted(std::vector<KnownName> names) {
     std::stable_sort(names.begin(), names.end(),
                      [](const auto& one, const auto& other) { return one.name < other.name; });
@@ -120,19 +120,20 @@ std::vector<KnownName> of_kinds(const Program& program, std::initializer_list<Na
     return names;
 }
 
-/// The blocks, calls and statement that are open at the end of a text.
+/// What is open at the end of a text: the blocks, the calls and the statement.
 struct TextPlace {
     struct Block {
-        std::string_view keyword, name;  ///< `stage` and `one` in `stage one: spots {`.
+        /// For example, `stage` and `one` in `stage one: spots {`.
+        std::string_view keyword, name;
     };
     std::vector<Block> blocks;            ///< The open blocks, outermost first.
-    std::vector<std::string_view> calls;  ///< The words before the open brackets.
-    std::string_view statement;           ///< The text of the last statement so far.
+    std::vector<std::string_view> calls;  ///< The words directly before the open brackets.
+    std::string_view statement;           ///< The last statement, as far as the text contains it.
     bool is_comment = false;
     bool is_string = false;
 };
 
-/// Whether a statement continues in the next line if this is the last character of a line.
+/// Whether a statement continues in the next line if `last` is the last character of its line.
 bool goes_on(char last) {
     return std::string_view("+-*/^,=<>:").find(last) != std::string_view::npos;
 }
@@ -185,7 +186,8 @@ std::optional<std::uint32_t> stage_named(const Program& program, std::string_vie
     return std::nullopt;
 }
 
-/// The stage of a block: itself, or the first stage of the system that the block declares.
+/// The stage that a block declares or, if the block declares a system, the first stage of that
+/// system.
 std::optional<std::uint32_t> stage_of_block(const Program& program, const TextPlace::Block& block) {
     if (block.keyword == "stage") return stage_named(program, block.name);
     for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
@@ -236,7 +238,8 @@ std::vector<KnownName> names_that_begin(std::string_view block, const Program& p
     return names;
 }
 
-/// The names that are allowed in the value of a setting, or in any other value.
+/// The names that are allowed in the value of a statement. If the statement is a setting, these
+/// include the words of the setting.
 std::vector<KnownName> names_in_value(std::string_view statement, const Program& program) {
     const std::string_view name = first_word(statement);
     const bool has_value = without_blanks_before(statement.substr(name.size())).starts_with(':');

@@ -1,5 +1,6 @@
-// The check records what names of systems and stages refer to. Functions, indices and shapes have
-// the same meaning everywhere, so their uses are found in the syntax tree alone.
+// The check records what the names of systems and stages refer to. The names of functions, indices
+// and shapes have the same meaning everywhere, so the uses of these names are found in the syntax
+// tree alone.
 #include "lang/service/name_index.h"
 
 #include "lang/check/check.h"
@@ -25,9 +26,10 @@ namespace {
 
 using Declared = std::unordered_map<std::string_view, Span>;
 
-/// Finds the uses of names that can be found in the tree alone.
+/// Finds the uses of those names whose meaning the syntax tree alone determines.
 class TreeNames {
-    static constexpr int most_levels = 1000;  ///< Indices of deeper bases are not found.
+    /// How many levels of bases are searched for indices.
+    static constexpr int most_levels = 1000;
 
 public:
     TreeNames(const ast::Script& tree, NameUses& uses) : tree_(tree), uses_(uses) {}
@@ -89,7 +91,8 @@ private:
         }
     }
 
-    /// The indices of a block and of its bases. The block's own indices replace indices of a base.
+    /// The indices that a block and its bases declare. An index of the block replaces an index of
+    /// the same name in a base.
     Declared indices_of(const ast::Block& block) const {
         Declared indices;
         const ast::Block* next = &block;
@@ -145,11 +148,13 @@ private:
     const ast::Script& tree_;
     NameUses& uses_;
     Declared functions_, constants_;
-    std::unordered_map<std::string_view, const ast::Block*> systems_;  ///< The blocks by name.
-    std::unordered_set<ast::ExprId> parameters_;  ///< Uses of names as parameters.
+    /// The system blocks by name.
+    std::unordered_map<std::string_view, const ast::Block*> systems_;
+    /// The expressions that use parameters of functions.
+    std::unordered_set<ast::ExprId> parameters_;
 };
 
-/// The name in a span. The span may begin with a bracket and end with an index.
+/// The part of a span that is a name. The span may begin with a bracket and end with an index.
 Span name_in(Span span, const Sources& sources) {
     const std::string_view text = sources[span.source].text();
     if (span.begin < text.size() && text[span.begin] == '[') ++span.begin;
@@ -174,7 +179,7 @@ NameIndex::NameIndex(const ast::Script& tree, const Diagnostics& read, Sources& 
     for (const ast::Block& block : tree.blocks) note_source(block.keyword.span);
     for (const ast::FunctionDefinition& function : tree.functions) note_source(function.name.span);
     NameUses uses;
-    // If `read` has errors, check() leaves out what needs a tree without errors.
+    // If `read` has errors, check() skips everything that needs a tree without errors.
     Diagnostics diagnostics = read;
     check(tree, sources, diagnostics, &uses);
     errors_ = diagnostics.error_count();
@@ -182,7 +187,8 @@ NameIndex::NameIndex(const ast::Script& tree, const Diagnostics& read, Sources& 
     add(uses);
 }
 
-/// Adds uses. Words that refer to each other, directly or through others, form one group.
+/// Adds uses of names. Words that refer to each other, directly or through other words, form a
+/// group.
 void NameIndex::add(const NameUses& uses) {
     std::map<std::tuple<SourceId, std::uint32_t>, std::size_t> number;
     NameUses named;
@@ -211,8 +217,8 @@ void NameIndex::add(const NameUses& uses) {
         const std::size_t a = first_of(use), b = first_of(declaration);
         words_[std::max(a, b)].group = std::min(a, b);
     }
-    // If a declaration replaces another one, its name refers to both. The declaration of such a
-    // name is the name itself.
+    // If a declaration replaces another declaration, its name refers to both. In this case the name
+    // counts as its own declaration.
     for (const NameUse& each : named) {
         if (each.use == each.declaration) {
             const std::size_t k = number.at(key_of(each.use));
@@ -251,7 +257,8 @@ std::vector<Span> NameIndex::uses_at(std::uint32_t byte) const {
     return spans;
 }
 
-/// For each word of the text, in order, the number of the first word with the same meaning.
+/// For each word of the text, in order, a number that is the same for all words with the same
+/// meaning.
 std::vector<std::size_t> NameIndex::meanings() const {
     std::map<std::size_t, std::size_t> numbers;
     std::vector<std::size_t> result;

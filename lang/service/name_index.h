@@ -16,28 +16,28 @@
 
 namespace cascade {
 
-/// Contains systems, stages, shapes, their quantities and definitions, indices, functions and their
-/// parameters, and constants. Names in options are not included.
+/// The names of systems, stages, shapes, their quantities and definitions, indices, functions and
+/// their parameters, and constants in a script. Names in options are not included.
 class NameIndex {
 public:
     /// Checks a script. If the script has errors, some names may be missing from the index. `read`
-    /// contains the errors that were found when the tree was read, and possibly others. `text` is
-    /// the script's source. The tree may also contain systems and functions of other sources. Texts
-    /// of the library are added to `sources`, which must outlive the index.
+    /// contains the errors that were found when the tree was read, and may contain other errors.
+    /// `text` is the script's source. The tree may also contain systems and functions of other
+    /// sources. The check adds texts of the library to `sources`, which must outlive the index.
     NameIndex(const ast::Script& tree, const Diagnostics& read, Sources& sources, SourceId text);
 
-    /// The name that contains a byte of the text or ends directly before it. Empty if there is
-    /// none.
+    /// The name that contains a byte of the text or ends directly before it. nullopt if there is no
+    /// such name.
     std::optional<Span> name_at(std::uint32_t byte) const;
     /// The declaration of the name at this byte, in any of the sources. If a derived system
-    /// replaces the declaration, the result is the one that is valid at this byte.
+    /// replaces the declaration, the result is the declaration that is valid at this byte.
     std::optional<Span> declaration_at(std::uint32_t byte) const;
     /// All places where the name at this byte is used or declared, in all sources, in ascending
     /// order.
     std::vector<Span> uses_at(std::uint32_t byte) const;
 
-    /// The text with the name at this byte replaced by `name`. Fails if the old name also occurs in
-    /// another source, or if the new text would have errors or the meaning of any name would
+    /// The text with `name` in place of the name at this byte. Fails if the old name also occurs in
+    /// another source, if the new text would have errors, or if the meaning of any name would
     /// change.
     Result<std::string> renamed(std::uint32_t byte, std::string_view name) const;
 
@@ -53,9 +53,10 @@ private:
 
     const Sources& sources_;
     SourceId text_;
-    std::vector<SourceId> used_;  ///< The other sources of the tree, in order.
+    /// The other sources of the tree, in the order in which the tree first uses them.
+    std::vector<SourceId> used_;
     std::size_t errors_ = 0;
-    std::vector<Word> words_;  ///< In ascending order.
+    std::vector<Word> words_;  ///< All words, in ascending order of their positions.
 };
 
 }  // namespace cascade

@@ -21,7 +21,8 @@ NameKind kind_of(const ast::Block& block, const ast::Statement& statement) {
     return has_rate ? NameKind::species : NameKind::parameter;
 }
 
-/// The span of a block. The tree has no span for a classic stage, so its span is computed.
+/// The span of a block. The tree has no span for a classic stage, so the span is computed from the
+/// parts of the stage.
 Span span_of(const ast::Block& block) {
     if (block.span.end > 0) return block.span;
     Span span = block.keyword.span;

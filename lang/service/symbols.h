@@ -11,9 +11,10 @@
 namespace cascade {
 
 struct Symbol {
-    std::string name;  ///< `domain` or `picture` for these blocks.
+    std::string name;  ///< The declared name; `domain` or `picture` for these two blocks.
     NameKind kind = NameKind::keyword;
-    Span name_span, span;  ///< The name alone; the whole block, function or statement.
+    /// The position of the name, and of the whole block, function or statement.
+    Span name_span, span;
     std::vector<Symbol> inside;
 };
 

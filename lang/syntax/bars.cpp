@@ -89,7 +89,7 @@ private:
         return false;
     }
     /// Whether the token follows an operand. The words `over` and `in` usually come between
-    /// operands. Within bars they can only be names.
+    /// operands. Within bars these two words can only be names.
     bool is_after_operand(bool is_open) const {
         if (at_ == 0) return false;
         const Token& before = in_[at_ - 1];

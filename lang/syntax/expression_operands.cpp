@@ -15,8 +15,8 @@ namespace cascade {
 
 namespace {
 
-// Literals that round to infinity in single precision (half a unit above the largest number), or
-// that are flushed to zero, are reported as probable mistakes.
+// Literals outside of these limits are reported as probable mistakes: they round to infinity in
+// single precision (from half a unit above the largest number), or they are flushed to zero.
 constexpr double too_large = 0x1.ffffffp127;
 constexpr double smallest = 0x1p-126;
 
@@ -59,7 +59,7 @@ ExpressionParser::Progress ExpressionParser::read_operand() {
             cursor_.error(token.span, "a number is written without '+'", "leave it out");
             return Progress::going_on;
         }
-        case TokenKind::garbage:  // The lexer has reported an error.
+        case TokenKind::garbage:  // An error has already been reported by the lexer.
             cursor_.take();
             push_operand(token.span, ast::Garbage{});
             return Progress::going_on;
@@ -90,7 +90,7 @@ ExpressionParser::Progress ExpressionParser::read_number() {
     return read_unit();
 }
 
-/// Reads the unit after a number, if there is one. An exponent has no unit.
+/// Reads the unit after a number, if there is one. A number that is an exponent has no unit.
 ExpressionParser::Progress ExpressionParser::read_unit() {
     const auto applies = [&](std::size_t depth, Function op) {
         return pending_.size() >= depth && !pending_[pending_.size() - depth].is_bracket() &&
@@ -157,7 +157,7 @@ ExpressionParser::Progress ExpressionParser::read_name() {
     return Progress::going_on;
 }
 
-/// Reads [name]. Skips anything else in such brackets up to the closing bracket.
+/// Reads [name]. If the brackets contain anything else, skips it up to the closing bracket.
 ExpressionParser::Progress ExpressionParser::read_bracketed() {
     const bool is_range = cursor_.previous().kind == TokenKind::name;
     const Token open = cursor_.take();
@@ -212,8 +212,8 @@ ExpressionParser::Progress ExpressionParser::read_own_member() {
     return Progress::going_on;
 }
 
-/// Reads `not`. Reports a `not` after an operator that binds more tightly: in `a + not b`, `not`
-/// would not apply to b alone.
+/// Reads `not`. Reports a `not` after an operator that binds more tightly: in `a + not b`, the
+/// operand of `not` would not be b alone.
 ExpressionParser::Progress ExpressionParser::read_not() {
     Pending logical_not;
     logical_not.kind = PendingKind::unary;
@@ -231,7 +231,7 @@ ExpressionParser::Progress ExpressionParser::read_not() {
     return Progress::going_on;
 }
 
-/// Reports a string in single quotes, such as 'tan' instead of "tan".
+/// Reports a string in single quotes: 'tan' written for "tan".
 ExpressionParser::Progress ExpressionParser::read_text_in_primes() {
     const bool is_text = cursor_.kind(1) == TokenKind::name && cursor_.kind(2) == TokenKind::prime;
     if (!is_text) return missing_operand();
@@ -244,7 +244,7 @@ ExpressionParser::Progress ExpressionParser::read_text_in_primes() {
     return Progress::going_on;
 }
 
-/// Reports that an expression cannot begin with the token here.
+/// Reports that no expression can begin with the token at the cursor.
 ExpressionParser::Progress ExpressionParser::missing_operand() {
     const Token before = cursor_.previous();
     const Token here = cursor_.peek();

@@ -17,7 +17,7 @@ namespace cascade {
 
 namespace {
 
-/// The operator that a token means between two operands. `=` is read as `==`.
+/// The operator that a token between two operands means. `=` is read as `==`.
 std::optional<Function> binary_of(TokenKind kind) {
     static const auto operators = [] {
         std::array<std::optional<Function>, static_cast<std::size_t>(TokenKind::bar) + 1> table;
@@ -61,7 +61,7 @@ ExpressionParser::Progress ExpressionParser::read_operator() {
     const Token token = cursor_.peek();
     const auto is_here = [&](std::string_view word) { return cursor_.at_name(word); };
     if (open_brackets_ == 0 && std::ranges::any_of(ends_, is_here)) return Progress::finished;
-    if (token.kind == TokenKind::assign) {  // Parsed as the comparison that was probably intended.
+    if (token.kind == TokenKind::assign) {  // Parsed as `==`, which was probably intended.
         cursor_.error(token.span, "'=' inside an expression", "write '==' to compare");
     }
     if (const auto binary = binary_of(token.kind)) {
@@ -98,13 +98,13 @@ ExpressionParser::Progress ExpressionParser::read_operator() {
     return unexpected_operator(on_new_line);
 }
 
-/// Whether the '[' here directly follows a name, as in u[i]. Otherwise the '[' begins an operand.
+/// Whether the '[' at the cursor directly follows a name, as in u[i]. Others begin an operand.
 bool ExpressionParser::begins_index() const {
     const Token& before = cursor_.previous();
     return before.kind == TokenKind::name && before.span.end == cursor_.peek().span.begin;
 }
 
-/// Whether the '.' here directly follows a bracket or a prime, as in grad(u).x.
+/// Whether the '.' at the cursor directly follows a bracket or a prime, as in grad(u).x.
 bool ExpressionParser::begins_component() const {
     const Token& before = cursor_.previous();
     const bool ends_operand = before.kind == TokenKind::close_round ||
@@ -136,7 +136,7 @@ void ExpressionParser::push_component(int axis, const ast::Word& name) {
     push_operand(join(vector.outer, name.span), ast::Component{vector.id, number, name});
 }
 
-/// Reads the ']' of u[…]. If a prime follows, the result is the rate of the member.
+/// Reads the ']' of u[…]. If a prime follows, the operand is the rate of the member.
 ExpressionParser::Progress ExpressionParser::close_index() {
     const Token close = cursor_.take();
     const Pending open = pending_.back();
@@ -175,7 +175,7 @@ ExpressionParser::Progress ExpressionParser::close_index() {
     return Progress::going_on;
 }
 
-/// Reads sum(e over i). The operand is complete, and the cursor is at `over`.
+/// Reads sum(e over i). e is complete, and the cursor is at `over`.
 ExpressionParser::Progress ExpressionParser::read_over() {
     reduce_above(0);
     const Token over = cursor_.peek();
@@ -211,7 +211,7 @@ ExpressionParser::Progress ExpressionParser::close_near() {
     return close_over(near, distance);
 }
 
-/// Closes a sum by a bracket. The cursor is after the word that follows `over`.
+/// Closes a sum at its bracket. The cursor is after the word that follows `over`.
 ExpressionParser::Progress ExpressionParser::close_over(const ast::Word& over,
                                                         std::optional<ast::ExprId> distance) {
     cursor_.skip_newlines_in_brackets();
@@ -232,7 +232,7 @@ ExpressionParser::Progress ExpressionParser::close_over(const ast::Word& over,
     return Progress::going_on;
 }
 
-/// Closes the innermost bracket. Reports a `]` in place of a `)`, but accepts it.
+/// Closes the innermost bracket. A `]` in place of a `)` is reported but accepted.
 ExpressionParser::Progress ExpressionParser::read_close_round() {
     const Token close = cursor_.peek();
     if (open_brackets_ == 0) {
@@ -301,7 +301,7 @@ ExpressionParser::Progress ExpressionParser::read_comma() {
     return Progress::going_on;
 }
 
-/// Reports a token that is neither an operator nor an end.
+/// Reports a token that is neither an operator nor the end of an expression.
 ExpressionParser::Progress ExpressionParser::unexpected_operator(bool on_new_line) {
     const Token token = cursor_.peek();
     switch (token.kind) {
@@ -328,7 +328,7 @@ ExpressionParser::Progress ExpressionParser::unexpected_operator(bool on_new_lin
     }
 }
 
-/// Whether an operator such as (1 + lap)^2 comes before the cursor, and an operand after it.
+/// Whether the cursor is between an operator such as (1 + lap)^2 and an operand.
 bool ExpressionParser::begins_applied() {
     const TokenKind here = cursor_.kind();
     const bool begins = here == TokenKind::name || here == TokenKind::number ||
@@ -391,7 +391,7 @@ ExpressionParser::Progress ExpressionParser::missing_operator(bool on_new_line) 
     return fail_here(hint_of_missing_operator());
 }
 
-/// Skips the statement after an error that the lexer has reported.
+/// Skips the rest of the statement after an error that the lexer has reported.
 ExpressionParser::Progress ExpressionParser::fail_silently() {
     cursor_.skip_statement(open_brackets_);
     return Progress::failed;

@@ -1,5 +1,5 @@
 // Parses expressions: the main loop, the reduction of operators that have all their operands, and
-// the hint about an operator that is missing.
+// the hint for a missing operator.
 #include "lang/syntax/expression_parser.h"
 
 #include "core/check.h"
@@ -49,7 +49,7 @@ void ExpressionParser::push_bracket(PendingKind kind, Token bracket, ast::Word n
     expects_operand_ = true;
 }
 
-/// Pushes an operator, after reducing operators to its left that bind more tightly.
+/// Reduces pending operators that bind more tightly than `op`, and then pushes `op`.
 void ExpressionParser::push_binary(Function op, const Token& sign) {
     Pending pending;
     pending.kind = PendingKind::binary;
@@ -67,7 +67,7 @@ void ExpressionParser::push_binary(Function op, const Token& sign) {
     expects_operand_ = true;
 }
 
-/// Reduces pending operators that bind more tightly than `precedence`, back to the last open
+/// Reduces the pending operators that bind more tightly than `precedence`. Stops at the last open
 /// bracket.
 void ExpressionParser::reduce_above(int precedence) {
     while (!pending_.empty() && !pending_.back().is_bracket() &&
@@ -131,7 +131,7 @@ ExpressionParser::Progress ExpressionParser::fail(Span span, std::string message
     return Progress::failed;
 }
 
-/// Reports the bracket that is open at the end of the statement.
+/// Reports the innermost bracket that is still open at the end of the statement.
 ExpressionParser::Progress ExpressionParser::unclosed() {
     for (std::size_t k = pending_.size(); k-- > 0;) {
         if (!pending_[k].is_bracket()) continue;
@@ -148,8 +148,8 @@ ExpressionParser::Progress ExpressionParser::unclosed() {
     return Progress::failed;
 }
 
-/// Describes `16 x 16`, `tanh^2(u)`, `u.lap()`, `np.exp(u)` and `c . grad(u)` at the place where an
-/// operator is missing.
+/// Describes the forms `16 x 16`, `tanh^2(u)`, `u.lap()`, `np.exp(u)` and `c . grad(u)` of other
+/// languages, if one of them is where an operator is missing.
 ExpressionParser::ForeignForm ExpressionParser::foreign_form() const {
     const Token &one = cursor_.behind(1), two = cursor_.behind(2), three = cursor_.behind(3);
     const Token here = cursor_.peek(), next = cursor_.peek(1);
@@ -192,7 +192,7 @@ std::string ExpressionParser::hint_of_missing_operator() const {
     const Span both = join(before.span, here.span);
     const bool is_bar =
         here.kind == TokenKind::name && cursor_.text(here) != cursor_.text(here.span);
-    // Outside of formulas, words such as "periodic noflux" are not factors.
+    // Where no formula is expected, words such as "periodic noflux" are not factors of a product.
     const bool is_in_formula = !pending_.empty() || cursor_.kind(1) == TokenKind::open_round;
     const bool is_product =
         before.kind == TokenKind::number || here.kind == TokenKind::open_round ||

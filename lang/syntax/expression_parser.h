@@ -2,8 +2,8 @@
 // "shunting yard", Mathematisch Centrum report MR 35, 1961), so that deep nesting needs memory but
 // no recursion.
 //
-// From loosest to tightest: or · and · not · comparisons · + - · * / · unary - · ^
-// (right-associative).
+// The operators, from the loosest to the tightest: or · and · not · comparisons · + - · * / · unary
+// minus · ^ (right-associative).
 #pragma once
 
 #include "lang/syntax/ast.h"
@@ -22,11 +22,11 @@ class ExpressionParser {
 public:
     ExpressionParser(TokenCursor& cursor, ast::Script& script) : cursor_(cursor), script_(script) {}
 
-    /// Parses one expression. Leaves the cursor at its end: a line break, `;`, `}`, `,` or the end
-    /// of the text. On an error, reports it, skips to the end of the statement and returns Garbage.
-    /// If the value is missing, `owner` describes it in the message: `the value of 'ka'`. Outside
-    /// of brackets the expression also ends at `..`, and at a word of `ends` in a position where an
-    /// operator could follow.
+    /// Parses one expression. Leaves the cursor at the end of the expression: at a line break, `;`,
+    /// `}`, `,` or the end of the text. Reports an error, if there is one, skips to the end of the
+    /// statement and returns Garbage. If the value is missing, `owner` describes it in the message:
+    /// `the value of 'ka'`. Outside of brackets the expression also ends at `..`, and at a word of
+    /// `ends` where an operator could be.
     ast::Expression parse(const std::string& owner, std::span<const std::string_view> ends = {});
 
 private:
@@ -35,15 +35,15 @@ private:
     enum class Chain : std::uint8_t { none, to_report, reported };
     enum class Progress : std::uint8_t { going_on, finished, failed };
 
-    /// An operator or an open bracket whose right side has not been read yet.
+    /// An operator or an open bracket whose right side has not been read to its end yet.
     struct Pending {
         PendingKind kind = PendingKind::group;
         Chain chain = Chain::none;
         Function op{};
         Token token;       ///< The operator or the bracket.
         ast::Word detail;  ///< The name of a call, `near`, or the middle operand of an operator.
-        std::uint32_t argument_count = 0;  ///< For a call: the number of complete arguments.
-        bool is_own = false;  ///< For an index: whether it is the inner bracket in [u[i]].
+        std::uint32_t argument_count = 0;  ///< For a call, the number of complete arguments.
+        bool is_own = false;  ///< For an index, whether it is the inner bracket in [u[i]].
         int precedence() const { return info(op).precedence; }
         bool is_bracket() const {
             return kind == PendingKind::group || kind == PendingKind::call ||
@@ -79,7 +79,7 @@ private:
     void push_component(int axis, const ast::Word& name);
     Progress unexpected_operator(bool on_new_line);
     std::string hint_of_missing_operator() const;
-    /// An error about a form of other languages. The hint may be empty.
+    /// An error about a form that other languages have. The hint may be empty.
     struct ForeignForm {
         Span span;
         std::string message, hint;
@@ -108,7 +108,7 @@ private:
     std::uint32_t first_argument_ = 0;
     std::vector<Pending> pending_;
     std::vector<Operand> operands_;
-    std::vector<ast::ExprId> arguments_;  ///< Complete arguments of the calls in `pending_`.
+    std::vector<ast::ExprId> arguments_;  ///< The complete arguments of the calls in `pending_`.
     std::size_t open_brackets_ = 0;
     bool expects_operand_ = true;
 };

@@ -1,4 +1,5 @@
-// Describes comments and numbers of other languages by the text and the tokens around them.
+// Describes comments and numbers as other languages write them. Decides by the text and the tokens
+// around the comment or number.
 #include "lang/syntax/foreign_forms.h"
 
 #include "core/decimal.h"
@@ -20,7 +21,7 @@ bool is_one_of(std::string_view word, const std::array<std::string_view, count>&
     return std::ranges::find(words, word) != words.end();
 }
 
-/// Whether a name is expected after these tokens: `system`, `stage a:`.
+/// Whether a name is expected after these tokens, as after `system` and `stage a:`.
 bool is_name_expected(std::span<const Token> before) {
     static constexpr std::array<std::string_view, 6> keywords = {"system", "cells", "shape",
                                                                  "stage",  "let",   "fn"};
@@ -31,8 +32,8 @@ bool is_name_expected(std::span<const Token> before) {
     return keyword.kind == TokenKind::name && is_one_of(keyword.text, keywords);
 }
 
-/// Whether these tokens begin the value of a setting that counts, such as `cells: ` or `grid: 64,
-/// `.
+/// Whether these tokens begin the value of a setting that must be a whole number, such as `cells: `
+/// or `grid: 64, `.
 bool is_count_expected(std::span<const Token> before) {
     static constexpr std::array<std::string_view, 7> counts = {"iterations", "interval", "cells",
                                                                "grid",       "founders", "check",
@@ -51,8 +52,8 @@ double value_of_digits(std::string_view digits) {
     return value;
 }
 
-/// The end of the power in `x10^-3` or `x10^(-3)`. `caret` is the position of the '^'. Empty if no
-/// power follows.
+/// The position after the power in `x10^-3` or `x10^(-3)`. `caret` is the position of the '^'.
+/// nullopt if no power follows.
 std::optional<std::size_t> end_of_power(std::string_view text, std::size_t caret) {
     std::size_t at = caret + 1;
     const auto here = [&] { return at < text.size() ? text[at] : '\0'; };

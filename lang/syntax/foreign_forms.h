@@ -13,14 +13,15 @@ namespace cascade {
 /// Whether a comment of another language begins at `offset`: `//`, `/*`, or `--` between blanks.
 bool begins_foreign_comment(std::string_view text, std::size_t offset);
 
-/// Digits with letters after them, such as 2d, which are not a number.
+/// What is wrong with digits and the letters directly after them, such as 2d, which are not a
+/// number.
 struct NumberFault {
     std::string message, hint;
     std::size_t end = 0;  ///< Where the wrong text ends.
 };
 
-/// Describes the digits [begin, number_end) of `text` and the letters after them, which end at
-/// `end`. `before` are the tokens before them.
+/// Describes what is wrong with the digits [begin, number_end) of `text` and the letters after
+/// them. `before` are the tokens before the digits.
 NumberFault fault_of_number(std::span<const Token> before, std::string_view text, std::size_t begin,
                             std::size_t number_end, std::size_t end);
 

@@ -23,7 +23,7 @@ inline std::vector<ast::Word> words_of_index(const ast::Word& index) {
     return words;
 }
 
-/// Whether the word is the number of a member. Otherwise it is the name of an index.
+/// Whether the word is the number of a member. If it is not, it is the name of an index.
 inline bool is_number(const ast::Word& word) {
     return !word.empty() && word.text.front() >= '0' && word.text.front() <= '9';
 }
@@ -33,8 +33,8 @@ inline bool is_of_some_members(const ast::Word& index) {
     return std::ranges::any_of(words_of_index(index), is_number);
 }
 
-/// If an index such as [i] or [i, 2] begins at token `at`, the position of the token after it.
-/// Otherwise `at`.
+/// Returns the position after an index such as [i] or [i, 2] that begins at token `at`. If no index
+/// begins there, returns `at`.
 template <typename KindAt>
 std::size_t after_index(const KindAt& kind, std::size_t at) {
     if (kind(at) != TokenKind::open_square) return at;

@@ -22,7 +22,7 @@ std::string_view kept_spelling(const std::string& text) {
     static std::array<std::atomic<Entry*>, bucket_count> buckets{};
     std::atomic<Entry*>& bucket = buckets[std::hash<std::string>()(text) % bucket_count];
     Entry* fresh = nullptr;
-    Entry* seen = nullptr;  // Entries from this one on have been compared.
+    Entry* seen = nullptr;  // The first entry that has already been compared.
     for (Entry* first = bucket.load(std::memory_order_acquire);;) {
         for (const Entry* entry = first; entry != seen; entry = entry->next) {
             if (entry->text != text) continue;

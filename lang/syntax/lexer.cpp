@@ -26,7 +26,7 @@ bool is_name_start(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 
 bool is_name_part(char c) { return is_name_start(c) || is_digit(c); }
 bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 
-/// A letter or digit of a name, and its spelling in ASCII.
+/// A letter or digit in a name, and its spelling in ASCII.
 struct NamePart {
     std::uint32_t size = 0;  ///< The number of bytes in the text.
     std::string_view spelling;
@@ -40,7 +40,7 @@ public:
 
     std::vector<Token> run() {
         report_unreadable_bytes(source_, text_, diagnostics_);
-        if (text_.starts_with("\xef\xbb\xbf")) offset_ = 3;  // A byte order mark.
+        if (text_.starts_with("\xef\xbb\xbf")) offset_ = 3;  // Skips the byte order mark.
         while (offset_ < text_.size()) {
             if (tokens_.size() == most_tokens) {
                 tokens_.clear();
@@ -61,7 +61,7 @@ private:
     Span span(std::size_t begin, std::size_t end) const {
         return {source_, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
     }
-    /// Adds the token [begin, end) and moves to `end`.
+    /// Adds a token for the text [begin, end) and moves to `end`.
     void push(TokenKind kind, std::size_t begin, std::size_t end) {
         push(kind, begin, end, text_.substr(begin, end - begin));
     }
@@ -106,8 +106,8 @@ bool Lexer::begins_operator(std::size_t offset) const {
                        [&](const Operator& known) { return rest.starts_with(known.spelling); });
 }
 
-/// Whether the character at `offset` is not ASCII but resembles a letter, so that it probably
-/// belongs to the name.
+/// Whether the character at `offset` is outside of ASCII but resembles a letter, so that it is
+/// probably meant to be a part of the name.
 bool Lexer::joins_a_name(std::size_t offset) const {
     if (offset >= text_.size() || static_cast<unsigned char>(text_[offset]) < 0x80) return false;
     const CodePoint point = decode_utf8(text_, offset);
@@ -115,7 +115,8 @@ bool Lexer::joins_a_name(std::size_t offset) const {
            !superscript_digit(point.value) && !begins_operator(offset);
 }
 
-/// The letter or digit of a name at `offset`. Its size is 0 if there is another character.
+/// The letter or digit of a name that is at `offset`. The size is 0 if another character is at
+/// `offset`.
 NamePart Lexer::name_part(std::size_t offset) const {
     if (is_name_part(at(offset))) return {1, text_.substr(offset, 1)};
     if (offset >= text_.size() || static_cast<unsigned char>(text_[offset]) < 0x80) return {};
@@ -259,8 +260,8 @@ void Lexer::read_number() {
     push(TokenKind::garbage, begin, fault.end);
 }
 
-/// Reads a string, which must end on the same line. It becomes garbage if its quotation marks are
-/// not '"' or if it has unreadable bytes. Both errors are reported elsewhere.
+/// Reads a string, which must end on the same line. If the string has other quotation marks than
+/// '"' or contains unreadable bytes, it becomes garbage. Both errors are reported elsewhere.
 void Lexer::read_text(std::size_t quote_size, std::string_view closing) {
     const std::size_t begin = offset_;
     bool readable = quote_size == 1;
@@ -324,8 +325,8 @@ void Lexer::read_look_alike(const LookAlike& look_alike) {
     const CodePoint point = decode_utf8(text_, begin);
     const std::string_view letter = text_.substr(begin, point.size);
     const auto number = static_cast<std::uint32_t>(point.value);
-    if (look_alike.meant == TokenKind::newline) {  // Adjacent blanks of this kind are reported
-                                                   // together.
+    // Adjacent blanks of the same kind are reported together.
+    if (look_alike.meant == TokenKind::newline) {
         while (text_.substr(offset_).starts_with(letter)) offset_ += letter.size();
         diagnostics_.error(span(begin, offset_),
                            fmt::format("U+{:04X} is not an ordinary space", number),
@@ -343,21 +344,21 @@ void Lexer::read_look_alike(const LookAlike& look_alike) {
         const bool is_guillemet = point.value == U'\u00ab';
         return read_text(point.size, is_guillemet ? "\u00bb" : closing);
     }
-    if (is_power) {  // The parser continues without the power.
+    if (is_power) {  // The power is skipped, and the parser continues without it.
         offset_ += point.size;
         return;
     }
     push(look_alike.meant, begin, begin + point.size);
 }
 
-/// Reads anything except a name, a number or an operator.
+/// Reads any character that begins neither a name nor a number nor an operator.
 void Lexer::read_other() {
     const std::size_t begin = offset_;
     std::size_t end = begin;
     while (end < text_.size() && is_unreadable(text_, end)) ++end;
     if (end > begin)
-        return push(TokenKind::garbage, begin, end);  // An error has already been
-                                                      // reported.
+        // An error has already been reported.
+        return push(TokenKind::garbage, begin, end);
     const CodePoint point = decode_utf8(text_, begin);
     if (!greek_spelling(point.value).empty()) return read_name();
     if (read_superscript()) return;

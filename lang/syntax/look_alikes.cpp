@@ -1,4 +1,4 @@
-// The tables of characters that resemble others.
+// The tables of characters that resemble characters of the language.
 #include "lang/syntax/look_alikes.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ using Meant = TokenKind;
 
 // clang-format off
 constexpr LookAlike look_alikes[] = {
-    // Primes: typographic quotation marks, accents, the mathematical prime.
+    // Primes: typographic quotation marks, accents, and the mathematical prime.
     {U'\u2018', Meant::prime, "'"}, {U'\u2019', Meant::prime, "'"},
     {U'\u00b4', Meant::prime, "'"}, {U'\u02b9', Meant::prime, "'"}, {U'\uff07', Meant::prime, "'"},
     // Quotation marks.
@@ -34,10 +34,10 @@ constexpr LookAlike look_alikes[] = {
     {U'\uff5b', Meant::open_curly, "{"},     {U'\uff5d', Meant::close_curly, "}"},
     {U'\uff0c', Meant::comma, ","},          {U'\uff1a', Meant::colon, ":"},
     {U'\uff1b', Meant::semicolon, ";"},      {U'\uff1d', Meant::assign, "="},
-    // Sums and products over indices.
+    // The signs of sums and products over indices.
     {U'\u2211', Meant::garbage, "sum(… over i)"},
     {U'\u222b', Meant::garbage, "integral(… over domain)"},
-    // A value and its deviation.
+    // The sign ± between a value and its deviation.
     {U'\u00b1', Meant::plus, "random(m, s)"},
     // Superscript letters.
     {U'\u207f', Meant::garbage, "^n"},       {U'\u2071', Meant::garbage, "^i"},
@@ -58,10 +58,10 @@ struct LatinLookAlike {
 
 // clang-format off
 constexpr LatinLookAlike latin_look_alikes[] = {
-    // Cyrillic letters that look like Latin ones.
+    // Cyrillic letters that look like Latin letters.
     {U'а', "a"}, {U'е', "e"}, {U'о', "o"}, {U'р', "p"}, {U'с', "c"}, {U'у', "y"}, {U'х', "x"},
     {U'і', "i"}, {U'ѕ', "s"}, {U'ј', "j"},
-    // Greek letters that look like Latin ones.
+    // Greek letters that look like Latin letters.
     {U'ο', "o"}, {U'Α', "A"}, {U'Β', "B"}, {U'Ε', "E"}, {U'Ζ', "Z"}, {U'Η', "H"}, {U'Ι', "I"},
     {U'Κ', "K"}, {U'Μ', "M"}, {U'Ν', "N"}, {U'Ο', "O"}, {U'Ρ', "P"}, {U'Τ', "T"}, {U'Υ', "Y"},
     {U'Χ', "X"}, {U'ς', "sigma"}, {U'\u212a', "K"}, {U'ℓ', "l"}, {U'ħ', "h"}, {U'ℏ', "h"},
@@ -69,8 +69,8 @@ constexpr LatinLookAlike latin_look_alikes[] = {
 };
 // clang-format on
 
-/// The lower-case Greek letters, in Unicode's order for mathematical styles. In each style these
-/// letters follow the capitals.
+/// The lower-case Greek letters, in the order that they have in each of Unicode's mathematical
+/// styles. In each style, these letters follow the capitals.
 constexpr std::string_view greek_of_styles[] = {"alpha",   "beta", "gamma", "delta", "epsilon",
                                                 "zeta",    "eta",  "theta", "iota",  "kappa",
                                                 "lambda",  "mu",   "nu",    "xi",    "o",

@@ -1,4 +1,5 @@
-// Decides whether a product applies an operator, by searching for a `lap` without brackets.
+// Decides whether a product applies an operator, by searching its factors for a `lap` without
+// brackets.
 #include "lang/syntax/operator_polynomials.h"
 
 #include "lang/vocabulary/function_groups.h"

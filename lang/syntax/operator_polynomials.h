@@ -14,8 +14,8 @@ namespace cascade {
 /// Whether the node is an operator.
 bool is_operator(const ast::Script& script, ast::ExprId node);
 
-/// Whether the node is an operator that a product applies to its next factor. A bare `lap` is not
-/// applied in this way.
+/// Whether the node is an operator that is applied to the next factor if it is a factor of a
+/// product. A `lap` that stands alone is not applied in this way.
 bool applies_operator(const ast::Script& script, ast::ExprId node);
 
 /// The largest power to which an operator may be raised.

@@ -1,4 +1,4 @@
-// Spellings of operators and brackets, including spellings of other languages.
+// Spellings of operators and brackets, including the spellings of other languages.
 #pragma once
 
 #include "lang/syntax/token.h"
@@ -12,8 +12,8 @@ struct Operator {
     TokenKind kind;
 };
 
-/// The spellings of operators and brackets. A spelling comes before all shorter spellings with
-/// which it begins.
+/// The spellings of operators and brackets. If one spelling begins with another, the longer one
+/// comes first.
 inline constexpr Operator operators[] = {
     {"=\u0338", TokenKind::not_equal},
     {"+=", TokenKind::plus_assign},
@@ -41,8 +41,8 @@ inline constexpr Operator operators[] = {
     {"*", TokenKind::star},
     {"/", TokenKind::slash},
     {"^", TokenKind::caret},
-    // Signs of papers. The table has two unusual spellings, because Unicode treats a '=' with a
-    // combining stroke as equal to ≠, and the Greek semicolon as equal to ·.
+    // Signs of papers. Two spellings are unusual: Unicode treats a '=' with a combining stroke as
+    // equal to ≠, and the Greek semicolon as equal to ·.
     {"≤", TokenKind::less_equal},
     {"≥", TokenKind::greater_equal},
     {"≠", TokenKind::not_equal},
@@ -92,8 +92,8 @@ inline constexpr ForeignOperator foreign_operators[] = {
     {"%", TokenKind::garbage, "write mod(a, b) for a % b, 0.05 for 5 %; '#' begins a comment"},
 };
 
-/// The operator `!` of other languages. It is tried only if no operator of the language matches,
-/// because `!=` begins with `!`.
+/// The operator `!` of other languages. It is tried only if no operator of Cascade matches, because
+/// `!=` begins with `!`.
 inline constexpr ForeignOperator foreign_not = {"!", TokenKind::keyword_not, "write 'not'"};
 
 }  // namespace cascade

@@ -35,18 +35,20 @@ public:
     }
 
 private:
-    /// An open bracket, and the parser's state before it, which the closing bracket restores.
+    /// An open bracket, and the parser's state before the bracket. The closing bracket restores
+    /// this state.
     struct Open {
-        std::size_t closings = 0;   ///< How many brackets of operators to close after this bracket.
-        bool is_divisor = false;    ///< Whether the bracket is in a product that comes after a
-                                    ///< division sign.
-        bool is_operators = false;  ///< Whether the bracket belongs to an operator.
+        /// How many brackets to close after this bracket, which were opened for operators.
+        std::size_t closings = 0;
+        /// Whether the bracket is in a product and after a division sign.
+        bool is_divisor = false;
+        bool is_operators = false;  ///< Whether the bracket contains the operand of an operator.
     };
     /// The end of a derivative: `/∂t` or `/∂x`.
     struct DerivativeEnd {
         TokenKind kind = TokenKind::prime;
-        bool is_second_prime = false;  ///< Whether the derivative is ∂²u/∂t², which becomes two
-                                       ///< primes.
+        /// Whether the derivative is ∂²u/∂t², which becomes two primes.
+        bool is_second_prime = false;
         Token last;
         std::size_t size = 0;  ///< The number of tokens in the source.
     };
@@ -91,7 +93,7 @@ private:
         put(token(at_++));
     }
 
-    /// Adds the product sign that the source omits before the token here.
+    /// Adds the product sign that the source omits before the present token.
     void multiply() {
         const Token& here = token(at_);
         if (is_after_application() || is_divisor_) {
@@ -113,7 +115,7 @@ private:
         if (is_name && goes_on()) return;
         end_operand();
     }
-    /// Whether the token here continues the operand before it.
+    /// Whether the present token continues the operand before it.
     bool goes_on() const {
         switch (kind(at_)) {
             case TokenKind::open_round:
@@ -123,7 +125,8 @@ private:
             default: return false;
         }
     }
-    /// Closes the brackets of operators whose operand ends before the token here.
+    /// Closes the brackets that were opened for operators whose operand ends before the present
+    /// token.
     void end_operand() {
         if (closings_ == 0) return;
         for (; closings_ > 0; --closings_) {
@@ -186,7 +189,8 @@ private:
         }
         const bool is_alone = kind(at_) == TokenKind::close_round || kind(at_) == TokenKind::plus ||
                               kind(at_) == TokenKind::minus;
-        if (is_alone && !open_.empty() && function == "lap") {  // As in (1 + ∇²)² u.
+        // As in (1 + ∇²)² u, where the operator has no operand of its own.
+        if (is_alone && !open_.empty() && function == "lap") {
             put(TokenKind::name, sign.span, function);
             if (times > 1) {
                 put(TokenKind::caret, after(sign), "^");
@@ -215,7 +219,7 @@ private:
             closings_ += times;
         }
     }
-    /// How many times an operator such as ∇², ∇⁴ or Δ² applies the Laplacian.
+    /// How many times an operator such as ∇², ∇⁴ or Δ² means that the Laplacian is applied.
     std::size_t times_applied(const Token& sign, const Token& power) {
         const std::string digits = digits_of(source(power.span));
         constexpr std::array<std::string_view, 4> even{"2", "4", "6", "8"};
@@ -280,15 +284,16 @@ private:
             diagnostics_.error(caret.span, "it is unclear which power comes first", "write (u²)^n");
         }
     }
-    /// Reports a power after an operator and its operand. ∇²u² is ambiguous: it may mean (∇²u)² or
-    /// ∇²(u²).
+    /// Reports a power after an operator and its operand, because it is ambiguous: ∇²u² may mean
+    /// (∇²u)² or ∇²(u²).
     void refuse_power_of_application(const Token& power) {
         if (!is_after_application()) return;
         diagnostics_.error(power.span, "it is unclear what is raised to the power",
                            "put the operator with its operand, or the power, in brackets");
     }
 
-    /// Reads a derivative: ∂u/∂t, ∂²u/∂t², ∂u/∂x, ∂²u/∂x² or ∂²u/∂x∂y. u may be u[i].
+    /// Reads a derivative: ∂u/∂t, ∂²u/∂t², ∂u/∂x, ∂²u/∂x² or ∂²u/∂x∂y. In place of u, there may be
+    /// u[i].
     void read_partial() {
         const std::size_t begin = at_;
         if (at_ > 0 && ends_operand(at_ - 1)) multiply();
@@ -311,7 +316,8 @@ private:
                                "write ∂u/∂t, ∂²u/∂t², ∂u/∂x, ∂²u/∂x² or ∂²u/∂x∂y");
             put(TokenKind::garbage, token(begin).span, source(token(begin).span));
             const bool is_other = kind(slash) == TokenKind::slash &&
-                                  kind(slash + 1) == TokenKind::partial;  // For example ∂u/∂r.
+                                  // True for ∂u/∂r, for example.
+                                  kind(slash + 1) == TokenKind::partial;
             at_ = is_whole ? slash + size : is_other ? slash + 2 : begin + (is_second ? 2 : 1);
             return;
         }
@@ -347,7 +353,8 @@ private:
     Diagnostics& diagnostics_;
     std::vector<Open> open_;
     std::size_t closings_ = 0;  ///< The number of brackets to close after the present operand.
-    bool is_divisor_ = false;   ///< Whether the present product comes after a division sign.
+    /// Whether the present position is in a product and after a division sign.
+    bool is_divisor_ = false;
     std::map<std::size_t, DerivativeEnd> derivative_ends_;
 };
 

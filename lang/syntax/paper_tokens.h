@@ -1,5 +1,5 @@
-// Reads tokens of the notation of papers: finds which tokens end or begin an operand, and where
-// tokens are in the text. Only for this folder.
+// Reads tokens of the notation of papers. Finds which tokens begin or end an operand, and where
+// tokens are in the text. Only for lang/syntax.
 #pragma once
 
 #include "lang/syntax/index_words.h"
@@ -23,7 +23,7 @@ protected:
     bool is_adjacent(std::size_t at) const {
         return at > 0 && token(at - 1).span.end == token(at).span.begin;
     }
-    /// The text as it is written, for messages.
+    /// The text of the source at a span, for messages.
     std::string_view source(const Span& span) const {
         return text_.substr(span.begin, span.end - span.begin);
     }
@@ -50,7 +50,8 @@ protected:
             case TokenKind::close_round:
             case TokenKind::close_square:
             case TokenKind::prime: return true;
-            case TokenKind::superscript: return at == power_end_;  // A power, not the ² of ∇².
+            // True if the superscript is a power. The ² of ∇² is not.
+            case TokenKind::superscript: return at == power_end_;
             default: return false;
         }
     }
@@ -80,7 +81,7 @@ protected:
         return token.kind == TokenKind::name &&
                (token.text == "x" || token.text == "y" || token.text == "z" || token.text == "t");
     }
-    /// The position of the token after the `]` that closes the `[` at `open` on the same line.
+    /// The position after the `]` that closes the `[` at `open` on the same line.
     std::size_t end_of_index(std::size_t open) const {
         std::size_t depth = 0;
         for (std::size_t at = open; at < in_.size(); ++at) {
@@ -90,13 +91,14 @@ protected:
         }
         return open;
     }
-    /// The axis of a derivative: x if the tokens from `slash` are `/∂x`. Empty for other tokens.
+    /// The axis of a derivative: x if the tokens from `slash` on are `/∂x`. Empty for other tokens.
     std::string_view axis_of(std::size_t slash) const {
         const bool is_there = kind(slash) == TokenKind::slash &&
                               kind(slash + 1) == TokenKind::partial && is_width(token(slash + 2));
         return is_there ? token(slash + 2).text : std::string_view();
     }
-    /// The second axis of a derivative: y in `/∂x∂y`, x in `/∂x²`. Empty if there is none.
+    /// The second axis of a derivative: y in `/∂x∂y`, x in `/∂x²`. Empty if there is no second
+    /// axis.
     std::string_view second_axis(std::size_t slash, std::string_view axis) const {
         const Token& next = token(slash + 3);
         if (next.kind == TokenKind::superscript && source(next.span) == "²") return axis;
@@ -110,8 +112,9 @@ protected:
     std::string_view text_;
     std::vector<Token> out_;
     std::size_t at_ = 0;
-    std::size_t power_end_ = no_token;        ///< The last superscript that is a power.
-    std::size_t application_end_ = no_token;  ///< The last token of an operator and its operand.
+    std::size_t power_end_ = no_token;  ///< The position of the last superscript that is a power.
+    /// The position of the last token of the last operator with its operand.
+    std::size_t application_end_ = no_token;
 };
 
 }  // namespace cascade

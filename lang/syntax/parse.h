@@ -21,8 +21,8 @@ inline constexpr std::size_t largest_script = 16u << 20;
 /// statement, so one call finds all errors.
 ast::Script parse(SourceId source, const Sources& sources, Diagnostics& diagnostics);
 
-/// Parses a text that another script uses. Adds to `script` the systems and functions of this text
-/// and of the texts that it uses. Ignores stages, domain and picture.
+/// Parses a text that another script uses. Adds to `script` the systems and functions of this text,
+/// and of the texts that this text uses. Ignores stages, domain and picture.
 void parse_used(SourceId source, const Sources& sources, ast::Script& script,
                 Diagnostics& diagnostics);
 
@@ -36,7 +36,7 @@ std::optional<ast::Expression> parse_expression(SourceId source, const Sources& 
 void parse_override(SourceId source, const Sources& sources, ast::Script& script,
                     Diagnostics& diagnostics);
 
-/// The syntax tree as indented text, for `--dump ast`.
+/// Prints the syntax tree as indented text, for `--dump ast`.
 std::string print_ast(const ast::Script& script, const Sources& sources);
 
 }  // namespace cascade

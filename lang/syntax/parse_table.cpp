@@ -1,5 +1,5 @@
-// The expression of a function is a tree of `if`, in which a number finds its two rows after
-// log₂(rows) comparisons.
+// Makes functions of tables. The expression of a function is a tree of `if`, which finds the two
+// rows around a number with log₂(rows) comparisons.
 #include "lang/syntax/parse_table.h"
 
 #include "core/counted.h"
@@ -32,7 +32,7 @@ std::optional<double> number_in(std::string_view text) {
     return is_whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-/// The name in a cell such as "light [lux]". Empty if functions cannot have this name.
+/// The name in a cell such as "light [lux]". Empty if a function cannot have this name.
 std::string_view function_name(std::string_view text) {
     text = text.substr(0, text.find_first_of("(["));
     while (text.ends_with(' ')) text.remove_suffix(1);
@@ -46,7 +46,7 @@ std::string_view function_name(std::string_view text) {
     return is_name ? text : std::string_view();
 }
 
-/// The name of a file without folders and ending.
+/// The file name in a path, without folders and extension.
 std::string_view stem_of(std::string_view path) {
     path.remove_prefix(path.find_last_of("/\\") + 1);
     return path.substr(0, path.rfind('.'));
@@ -110,14 +110,15 @@ private:
     std::string_view text_, stem_;
     ast::Script& script_;
     Diagnostics& diagnostics_;
-    std::vector<std::size_t> lines_;  ///< The first byte of each line.
+    std::vector<std::size_t> lines_;  ///< The position of the first byte of each line.
     std::vector<std::vector<CsvCell>> rows_;
-    std::size_t first_row_ = 0;     ///< The first row of numbers.
-    std::vector<ast::Word> names_;  ///< Of the functions, by column. The first is not used.
+    std::size_t first_row_ = 0;  ///< The index of the first row of numbers.
+    /// For each column, the name of its function. The name of the first column is not used.
+    std::vector<ast::Word> names_;
     NumberTable table_;
 };
 
-/// The span of a cell in bytes. The cell's line and column count characters.
+/// The span of a cell in bytes. CsvCell gives the line and column of the cell in characters.
 Span TableParser::span_of(const CsvCell& cell) const {
     std::size_t at = lines_[cell.line - 1];
     for (std::size_t column = 1; column < cell.column; ++column) {
@@ -130,7 +131,7 @@ Span TableParser::span_of(const CsvCell& cell) const {
             static_cast<std::uint32_t>(std::min(at + rest, text_.size()))};
 }
 
-/// Reports an error of read_csv(), whose message begins with "LINE:COLUMN: ".
+/// Reports an error of read_csv(). The error's message begins with "LINE:COLUMN: ".
 bool TableParser::refuse_text(const Failure& failure) {
     CsvCell place;
     const std::string_view message = failure.message;
@@ -258,7 +259,7 @@ bool TableParser::take_row(const std::vector<CsvCell>& row) {
     return true;
 }
 
-/// Adds the function of a column.
+/// Adds the function of a column to the script.
 void TableParser::add(std::size_t column) {
     ast::FunctionDefinition function;
     function.name = names_[column];
@@ -270,7 +271,7 @@ void TableParser::add(std::size_t column) {
     script_.functions.push_back(std::move(function));
 }
 
-/// Adds a function without a value, so that its calls are not reported as well.
+/// Adds a function without a value, so that calls of the function are not reported as well.
 void TableParser::add_damaged(std::size_t column) {
     ast::FunctionDefinition function;
     function.name = names_[column];
@@ -278,8 +279,9 @@ void TableParser::add_damaged(std::size_t column) {
     script_.functions.push_back(std::move(function));
 }
 
-/// Adds the expression that consists of the pieces `first` … `last`, and returns its root. Piece k
-/// ends at row k, and the piece after the last row has no end.
+/// Adds the expression for the pieces `first` … `last`, and returns its root. A piece is the part
+/// of the function between two rows. Piece k ends at row k. The piece after the last row has no
+/// end.
 ast::ExprId TableParser::between(std::size_t column, std::size_t first, std::size_t last) {
     if (first == last) return piece(column, first);
     const std::size_t middle = (first + last) / 2;
@@ -294,8 +296,8 @@ ast::ExprId TableParser::between(std::size_t column, std::size_t first, std::siz
     return node(span, ast::Call{{span, "if"}, arguments, 3});
 }
 
-/// Adds the expression of a piece. The first and the last piece are outside the rows and constant.
-/// Any other piece is linear between two rows.
+/// Adds the expression for one piece. The first and the last piece, which are outside of the rows,
+/// are constant. Any other piece is linear between two rows.
 ast::ExprId TableParser::piece(std::size_t column, std::size_t number) {
     const auto& times = table_.columns[0];
     const auto& values = table_.columns[column];

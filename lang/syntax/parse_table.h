@@ -1,4 +1,4 @@
-// Turns a table of numbers into functions: use "light.csv".
+// Turns a table of numbers into functions, for use "light.csv".
 #pragma once
 
 #include "core/diagnostics.h"
@@ -10,7 +10,7 @@
 
 namespace cascade {
 
-/// The most rows of numbers in a table. Each becomes a part of an expression.
+/// The largest number of rows of numbers in a table. Each row becomes a part of an expression.
 inline constexpr std::size_t most_table_rows = 1000;
 
 /// The largest size of a table, in bytes.
@@ -21,15 +21,16 @@ bool is_table_name(std::string_view path);
 
 /// Parses comma-separated values (core/csv.h) and adds a function of one number to `script` for
 /// each column after the first. Between two rows the function is linear in the numbers of the first
-/// column, which must rise, and outside the rows it is constant. The first row may have names,
-/// which are the names of the functions, and the next row units. Text after a ( or [ in a name is a
-/// unit. If a table of two columns has no names, its function is called like the file. Reports
-/// errors to `diagnostics`, at the cell.
+/// column, which must rise, and outside the rows it is constant. The first row may contain the
+/// names of the functions, and the row after it may contain units. Text after a ( or [ in a name is
+/// a unit. If a table of two columns has no names, its function has the name of the file. Reports
+/// errors to `diagnostics`, with the location of the cell.
 void parse_table(SourceId source, const Sources& sources, ast::Script& script,
                  Diagnostics& diagnostics);
 
-/// Notes in the script that the names of a used file are unknown, because the file could not be
-/// read: adds a function without a name. The check then reports no unknown functions and systems.
+/// Notes in the script that the names in a used file are unknown because the file could not be
+/// read: adds a function without a name. As a result, the check reports no unknown functions and
+/// systems.
 void add_unknown_names(ast::Script& script, Span use);
 
 }  // namespace cascade

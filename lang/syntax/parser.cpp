@@ -12,7 +12,7 @@ namespace cascade {
 
 namespace {
 
-/// Whether a text is not larger than scripts may be. Otherwise reports an error.
+/// Whether a text has at most the size that scripts may have. Otherwise reports an error.
 bool has_sane_size(SourceId source, const Sources& sources, Diagnostics& diagnostics) {
     const std::size_t size = sources[source].text().size();
     if (size <= largest_script) return true;
@@ -78,7 +78,8 @@ void parse_override(SourceId source, const Sources& sources, ast::Script& script
     ScriptParser(cursor, script).parse_override();
 }
 
-/// Reports text after the end of the expression, unless the expression was already reported.
+/// Reports text after the end of the expression, unless an error in the expression has been
+/// reported.
 void ScriptParser::report_rest(const std::string& what, ast::Expression expression,
                                const std::string& hint) {
     cursor_.skip_newlines();
@@ -113,7 +114,7 @@ bool ScriptParser::parse_word_after_dot(ast::Word& word, const std::string& form
 }
 
 /// Parses name=value, stage.name=value, and the sides u.left=… and stage.u.left=…, where u may be
-/// u[1]. The checker decides whether a.left is a side, or a parameter of stage a.
+/// u[1]. The checker decides whether a.left is a side of species a or a parameter of stage a.
 void ScriptParser::parse_override() {
     const std::string form = "write name=value or stage.name=value";
     ast::Override change;

@@ -22,7 +22,7 @@ ast::BlockKind kind_of_keyword(std::string_view keyword) {
     return keyword == "domain" ? ast::BlockKind::domain : ast::BlockKind::picture;
 }
 
-/// Words for messages about a block with a name and a base.
+/// The words that describe a kind of block with a name and a base in messages.
 struct HeaderWords {
     std::string_view nameless, base, named_form, derived_form;
 };
@@ -57,8 +57,8 @@ void ScriptParser::parse_item() {
         }
         return;
     }
-    // Outside of blocks, a name after `cells` or `shape` shows that this word begins a block and is
-    // not a quantity.
+    // Outside of blocks, a name after the word `cells` or `shape` shows that the word begins a
+    // block and is not a quantity.
     const bool begins_named = !in_classic_stage_ && cursor_.kind(1) == TokenKind::name &&
                               (cursor_.at_name("cells") || cursor_.at_name("shape"));
     if (cursor_.begins_block() || begins_named) return parse_block(cursor_.text(cursor_.peek()));
@@ -70,8 +70,8 @@ void ScriptParser::parse_item() {
     }
 }
 
-/// Parses a block with a misspelt keyword, such as `System s {`, as the intended block, so that no
-/// other part seems to be missing.
+/// Parses a block with a misspelt keyword, such as `System s {`, as the block that was probably
+/// intended, so that nothing else seems to be missing.
 bool ScriptParser::parse_misspelt_block() {
     if (!cursor_.at(TokenKind::name) || !has_shape_of_block(1)) return false;
     const std::string meant = report_no_block(cursor_.word(cursor_.peek()));
@@ -83,7 +83,8 @@ bool ScriptParser::parse_misspelt_block() {
     return true;
 }
 
-/// Parses the block that begins here. Its keyword may be misspelt.
+/// Parses the block that begins at the cursor. `keyword` is the keyword that was intended, even if
+/// it is misspelt in the script.
 void ScriptParser::parse_block(std::string_view keyword) {
     in_classic_stage_ = false;
     outside_reported_ = false;
@@ -105,8 +106,8 @@ void ScriptParser::parse_block(std::string_view keyword) {
     script_.blocks.push_back(std::move(block));
 }
 
-/// Parses the header of a system, cells or a shape: NAME, or NAME: BASE. Cells may have several
-/// bases, NAME: BASE, BASE.
+/// Parses the header of a system, cells or a shape: NAME or NAME: BASE. Cells may have several
+/// bases: NAME: BASE, BASE.
 void ScriptParser::parse_header_of_system(ast::Block& block) {
     if (cursor_.at(TokenKind::name)) {
         block.name = cursor_.word(cursor_.take());
@@ -139,9 +140,7 @@ void ScriptParser::parse_bases(ast::Block& block) {
                                  std::string(words.derived_form));
         }
         const ast::Word base = cursor_.word(cursor_.take());
-        if (block.name.empty())
-            continue;  // In `system: NAME {`, the missing name has been
-                       // reported.
+        if (block.name.empty()) continue;  // The missing name has been reported.
         if (sign.kind == TokenKind::colon) {
             block.base = base;
         } else if (block.is_cells) {
@@ -174,7 +173,7 @@ void ScriptParser::parse_header_of_stage(ast::Block& block) {
     }
 }
 
-/// Parses the header of `domain` or `picture`, which have no name.
+/// Parses the header of `domain` or `picture`. These blocks have no name.
 void ScriptParser::parse_header_without_name() {
     const Token keyword = cursor_.previous();
     if (!cursor_.at(TokenKind::name) && !cursor_.at(TokenKind::colon)) return;
@@ -209,7 +208,8 @@ void ScriptParser::parse_body(ast::Block& block) {
         block.is_damaged = true;
         cursor_.skip_statement();
     } else {
-        // If the header ended too early, the error has been reported.
+        // Whether an error in the header has been reported already, because the header ended too
+        // early.
         const bool is_told = block.is_damaged && !cursor_.at(TokenKind::name);
         block.is_damaged = true;
         if (!is_told) {
@@ -217,7 +217,7 @@ void ScriptParser::parse_body(ast::Block& block) {
                           fmt::format("'{{' is missing after {}", cursor_.describe(header_end)),
                           hint_of_missing_bracket(header_end));
         }
-        // The rest of the header's line is not a statement.
+        // Skips the rest of the header's line, which is not a statement.
         if (header_end.kind != TokenKind::name || !cursor_.at(TokenKind::name)) {
             cursor_.skip_statement();
         }
@@ -248,13 +248,13 @@ void ScriptParser::report_unclosed(const Token& open, const ast::Block& block) {
     diagnostic.hint = fmt::format("{}{} ends with '}}'", block.keyword.text, name);
     if (!cursor_.at_end()) {
         diagnostic.notes.push_back({cursor_.peek().span, "the next block begins here"});
-        ++forgiven_closings_;  // If the next block was meant to be inside this one, a '}' follows
-                               // later.
+        // The next block was probably meant to be inside this block, so a '}' follows later.
+        ++forgiven_closings_;
     }
     cursor_.error(std::move(diagnostic));
 }
 
-/// Parses `system_name: SYSTEM`, and all statements up to the next `system_name` or block.
+/// Parses `system_name: SYSTEM` and all statements before the next `system_name` or block.
 void ScriptParser::parse_classic_stage() {
     ast::Block block;
     block.kind = ast::BlockKind::classic_stage;
@@ -293,8 +293,7 @@ void ScriptParser::parse_base_of_classic_stage(ast::Block& block) {
     cursor_.skip_statement();
 }
 
-/// Parses a statement outside of all stages to report the errors in it. The statement is then
-/// dropped.
+/// Parses a statement outside of all stages, to report the errors in it, and drops it.
 void ScriptParser::parse_outside_statement() {
     const bool is_name = cursor_.at(TokenKind::name);
     const std::size_t errors_before = cursor_.error_count();

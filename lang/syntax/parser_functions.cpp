@@ -75,7 +75,7 @@ void ScriptParser::parse_function() {
     script_.functions.push_back(std::move(function));
 }
 
-/// Adds a function that has errors, so that calls of the function are not reported.
+/// Adds a function that has errors, so that calls of the function are not reported as errors, too.
 void ScriptParser::keep_damaged(ast::FunctionDefinition function) {
     const auto here = static_cast<ast::ExprId>(script_.expressions.size());
     script_.expressions.push_back({function.name.span, ast::Garbage{}});
@@ -85,8 +85,8 @@ void ScriptParser::keep_damaged(ast::FunctionDefinition function) {
     cursor_.skip_statement();
 }
 
-/// Parses the parameters ( [ name { , name } ] ). Reports an error and returns false if this is
-/// impossible.
+/// Parses the parameters ( [ name { , name } ] ) of a function. If this fails, reports an error and
+/// returns false.
 bool ScriptParser::parse_parameters(ast::FunctionDefinition& function) {
     const auto refuse = [&](Span span, const std::string& message) {
         if (!cursor_.at(TokenKind::garbage)) cursor_.error(span, message, function_form);

@@ -1,4 +1,5 @@
-// Parses the parts after a value: the end of an index, the range of a parameter, `after divide`.
+// Parses the parts of a statement that follow a value: the end of an index, the range of a
+// parameter, and `after divide`.
 #include "lang/syntax/script_parser.h"
 #include "lang/syntax/script_units.h"
 
@@ -28,8 +29,8 @@ void ScriptParser::parse_end_of_index(ast::Statement& statement) {
     statement.values.push_back(expressions_.parse("the end of the range"));
 }
 
-/// Parses the further ranges of `extent: 0 .. 10, 0 .. 10`, so that the checker can report all of
-/// them together.
+/// Parses the ranges after the first range of `extent: 0 .. 10, 0 .. 10`, so that the checker can
+/// report all of them together.
 void ScriptParser::parse_more_ranges(ast::Statement& statement) {
     while (cursor_.at(TokenKind::comma) && !cursor_.begins_statement(1)) {
         cursor_.take();
@@ -40,7 +41,7 @@ void ScriptParser::parse_more_ranges(ast::Statement& statement) {
     }
 }
 
-/// Parses the `in low .. high [step e]` after a value.
+/// Parses the `in low .. high [step e]` after a value, if there is one.
 void ScriptParser::parse_range(ast::Statement& statement) {
     const Token word = cursor_.take();
     const std::string form = "write p: 1 in 0 .. 2";
@@ -50,7 +51,7 @@ void ScriptParser::parse_range(ast::Statement& statement) {
         return;
     }
     ast::Range range;
-    // A number without a unit has the unit of the value.
+    // If a number has no unit, it gets the unit of the value.
     const std::string_view unit = unit_text_of(script_, statement.values[0]);
     range.low = expressions_.parse("the lower end of the range");
     give_unit(script_, range.low, unit);
@@ -74,7 +75,7 @@ void ScriptParser::parse_range(ast::Statement& statement) {
     statement.range = range;
 }
 
-/// Parses the `after divide` after a value and its range.
+/// Parses the `after divide` after a value and its range, if there is one.
 void ScriptParser::parse_after(ast::Statement& statement) {
     const Token word = cursor_.take();
     const std::string form = fmt::format("write {}: 0 after divide", statement.name.text);

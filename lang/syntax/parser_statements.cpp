@@ -20,8 +20,8 @@ constexpr std::array<std::string_view, 2> ends_of_value{"in", "after"};
 
 }  // namespace
 
-/// Parses the statement at the cursor and moves to its end. Reports an error and returns nothing if
-/// its name or relation is wrong. A wrong value becomes Garbage.
+/// Parses the statement at the cursor and moves to its end. If the name or the relation is wrong,
+/// reports an error and returns nullopt. A wrong value becomes Garbage.
 std::optional<ast::Statement> ScriptParser::parse_statement() {
     if (!cursor_.at(TokenKind::name) && !cursor_.begins_constraint()) {
         report_no_statement();
@@ -113,8 +113,9 @@ bool ScriptParser::parse_index(ast::Statement& statement) {
     return false;
 }
 
-/// Parses the text between the name and the value. Reports relations of other languages, and treats
-/// them like Cascade's equivalent relations. Returns false if there is no value to parse.
+/// Parses the relation between the name and the value, such as `:` or `=`. Relations of other
+/// languages are reported, and then read as the relations of Cascade that they mean. Returns false
+/// if there is no value to parse.
 bool ScriptParser::parse_relation(ast::Statement& statement) {
     using Kind = ast::StatementKind;
     const Token token = cursor_.peek();
@@ -172,13 +173,13 @@ bool ScriptParser::parse_rate_relation(ast::Statement& statement) {
                       "a rate is written with '=' or '+='",
                       fmt::format("write {}' = …", shortened(statement.name.text)));
     }
-    // The colon is probably a slip, and the rate comes after it.
+    // The colon is probably a mistake, and the rate follows it.
     if (cursor_.take_if(TokenKind::colon) || cursor_.take_if(TokenKind::equal)) return true;
     cursor_.skip_statement();
     return false;
 }
 
-/// Parses one expression, or several separated by commas.
+/// Parses one expression or several expressions separated by commas.
 void ScriptParser::parse_values(ast::Statement& statement) {
     const bool colon_is_missing =
         !wants_operand(cursor_.previous().kind) && cursor_.previous().kind != TokenKind::colon;
@@ -240,8 +241,8 @@ void ScriptParser::parse_values(ast::Statement& statement) {
     cursor_.mute(false);
 }
 
-/// Parses an expression. It may begin on the next line if this line ends with an operator other
-/// than ':'.
+/// Parses an expression after an operator or a ':'. The expression may begin on the next line,
+/// except after a ':'.
 ast::Expression ScriptParser::parse_after_operator(const std::string& owner,
                                                    std::span<const std::string_view> ends) {
     const bool goes_on = wants_operand(cursor_.previous().kind) && cursor_.at(TokenKind::newline) &&

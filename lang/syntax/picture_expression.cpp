@@ -1,4 +1,4 @@
-// Finds a setting in the picture block.
+// Finds a setting in a script's picture block.
 #include "lang/syntax/picture_expression.h"
 
 namespace cascade {

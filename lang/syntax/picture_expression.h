@@ -8,7 +8,8 @@
 
 namespace cascade {
 
-/// The value of this setting of the script's picture block; empty if the block does not set it.
+/// The value of this setting in the script's picture block. nullopt if the block does not contain
+/// the setting.
 std::optional<ast::Expression> picture_expression(const ast::Script& script,
                                                   std::string_view setting = "color");
 

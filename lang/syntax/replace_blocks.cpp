@@ -1,5 +1,5 @@
-// Parses both texts, and puts pieces of the added text into the script, from the script's end to
-// its beginning.
+// Parses both texts. Then puts pieces of the added text into the script, going from the script's
+// end to its beginning.
 #include "lang/syntax/replace_blocks.h"
 
 #include "lang/syntax/parse.h"
@@ -22,7 +22,7 @@ struct TextPiece {
 
 constexpr int function_kind = -1;
 
-/// A text with its blocks and functions, in order.
+/// A text and its blocks and functions, in order.
 struct ParsedText {
     explicit ParsedText(const std::string& text) {
         const SourceId source = sources.add("", text);
@@ -47,11 +47,11 @@ struct ParsedText {
     Diagnostics errors;
     ast::Script tree;
     std::vector<TextPiece> pieces;
-    bool is_of_blocks = true;  ///< Whether the text contains only blocks and functions.
+    bool is_of_blocks = true;  ///< Whether the text contains nothing but blocks and functions.
 };
 
-/// The tokens outside of pictures and shapes. Several line breaks in a row become one, and line
-/// breaks at both ends are removed.
+/// The tokens outside of pictures and shapes. Several line breaks in a row become one line break,
+/// and line breaks at both ends of the text are removed.
 std::vector<std::string_view> words_without_pictures(const ParsedText& parsed) {
     Diagnostics never_any;
     std::vector<std::string_view> words;
@@ -98,7 +98,7 @@ std::string with_blocks(const std::string& script, const std::string& added) {
         if (same != old.pieces.end()) {
             replacements.push_back({same->span, std::string(more.sources.text(piece.span))});
         } else {
-            // The comments before a piece are added with it.
+            // The added text includes the comments before the piece.
             at_end += added.substr(from, piece.span.end - from);
         }
         from = piece.span.end;

@@ -1,5 +1,5 @@
-// Adds blocks to a script, replacing blocks of the same name, and compares the blocks of two
-// scripts.
+// Adds blocks to a script, and compares the blocks of two scripts. An added block replaces a block
+// of the same name.
 #pragma once
 
 #include <string>

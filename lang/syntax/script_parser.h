@@ -11,7 +11,7 @@
 
 namespace cascade {
 
-/// Parses one source into a script.
+/// The parser of one source, which becomes a part of a script.
 class ScriptParser {
 public:
     ScriptParser(TokenCursor& cursor, ast::Script& script)
@@ -83,11 +83,11 @@ private:
     bool report_no_statement();
     void skip_type(const ast::Word& name);
 
-    /// The text of the doc comments before the cursor, which belong to the item that begins at the
+    /// The text of the doc comments before the cursor. They belong to the item that begins at the
     /// cursor.
     std::string docs_before();
     /// The text of the doc comments of the item that began at `begin` and was just parsed. Includes
-    /// comments after the item on its last line.
+    /// comments after the item on the item's last line.
     std::string docs_after(std::uint32_t begin);
     static void add_docs(std::string& doc, const std::string& more);
 
@@ -96,10 +96,13 @@ private:
     TokenCursor& cursor_;
     ast::Script& script_;
     ExpressionParser expressions_;
-    bool in_classic_stage_ = false;  ///< Whether statements belong to the script's last block.
-    bool outside_reported_ = false;  ///< Whether a statement outside of stages has been reported.
-    std::size_t forgiven_closings_ = 0;  ///< How many `}` to skip, because their blocks have been
-                                         ///< reported as unclosed.
+    /// Whether the statements that follow belong to the script's last block, which is a classic
+    /// stage.
+    bool in_classic_stage_ = false;
+    bool outside_reported_ = false;  ///< Whether any statement outside of stages has been reported.
+    /// How many `}` to accept without an error, because their blocks have been reported as
+    /// unclosed.
+    std::size_t forgiven_closings_ = 0;
 };
 
 }  // namespace cascade

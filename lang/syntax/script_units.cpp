@@ -1,4 +1,4 @@
-// Chooses the units of a script from the units that it writes.
+// Chooses the units in which a script computes from the units that the script contains.
 #include "lang/syntax/script_units.h"
 
 #include "lang/syntax/kept_spellings.h"
@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::array<std::string_view, base_quantity_count> default_names{"m",  "s", "mol",
                                                                           "kg", "A", "K"};
-/// The order of the base quantities in the name of a unit. A quantity comes earlier if its unit may
-/// also measure others: amount (uM) before length (m).
+/// The order in which base quantities come in the name of a unit. A quantity comes earlier if its
+/// unit may also measure other quantities: amount (uM) comes before length (m).
 constexpr std::array order_of_names{BaseQuantity::current,     BaseQuantity::amount,
                                     BaseQuantity::temperature, BaseQuantity::mass,
                                     BaseQuantity::length,      BaseQuantity::time};
@@ -64,7 +64,8 @@ std::pair<std::string, Unit> concentration_in(std::string_view text) {
     const Dimension wanted =
         Dimension::of(BaseQuantity::amount) / Dimension::of(BaseQuantity::length, 3);
     Unit part;
-    std::array<std::string, 2> names;  // Above and below the line.
+    // The names of the factors above and below the fraction line.
+    std::array<std::string, 2> names;
     for (const UnitFactor& factor : factors_of_unit(text)) {
         Unit unit = *unit_named(factor.name);
         Dimension others = unit.dimension;
@@ -99,8 +100,8 @@ bool ScriptUnits::empty() const {
     return std::ranges::none_of(known_, [](bool is_known) { return is_known; });
 }
 
-/// Takes the first factor that measures only this quantity, such as um or h, as the script's unit
-/// of the quantity, unless one has been taken before.
+/// Looks in a unit for the first factor that measures only `quantity`, such as um or h, and takes
+/// it as the script's unit of `quantity`, unless a factor has been taken before.
 void ScriptUnits::take_plain(std::string_view text, BaseQuantity quantity) {
     Base& base = bases_[index_of(quantity)];
     for (const UnitFactor& factor : factors_of_unit(text)) {
@@ -110,7 +111,8 @@ void ScriptUnits::take_plain(std::string_view text, BaseQuantity quantity) {
     }
 }
 
-/// Takes factors such as uM, kg or mV as units of the quantities other than length and time.
+/// Takes factors such as uM, kg or mV as the script's units of all quantities except length and
+/// time.
 void ScriptUnits::take_others(std::string_view text) {
     const auto [name, concentration] = concentration_in(text);
     Base& amount = bases_[index_of(BaseQuantity::amount)];
@@ -149,7 +151,8 @@ void ScriptUnits::note_known(std::string_view text) {
     }
 }
 
-/// The size of the script's unit of a dimension. The dimension's powers must be whole.
+/// The size of the unit that a dimension has in this script. The powers of the dimension must be
+/// whole.
 Unit ScriptUnits::size_of(const Dimension& dimension) const {
     Unit size;
     for (std::size_t k = 0; k < base_quantity_count; ++k) {
@@ -255,7 +258,7 @@ MeasuredSpans::MeasuredSpans(const ast::Script& script) {
             if (!is_unit_call(call->function.text)) continue;
             dimensions_[key] = unit_of(text_of_unit_call(call->function.text)).dimension;
         }
-        // The places and lengths of domain.x, domain.width and so on.
+        // domain.x, domain.width and the other places and lengths of the domain are lengths.
         const auto* const length = std::get_if<ast::Qualified>(&part.node);
         const auto* const place = std::get_if<ast::Component>(&part.node);
         const auto is_domain = [&](ast::ExprId id) {

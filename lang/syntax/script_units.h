@@ -1,4 +1,4 @@
-// The units in which a script computes, and the numbers of the script that have a unit.
+// The units in which a script computes, and the parts of a script that have a unit.
 #pragma once
 
 #include "lang/syntax/ast.h"
@@ -15,22 +15,22 @@ namespace cascade {
 
 /// The unit in which the script computes each base quantity. Lengths are in the unit of the
 /// domain's `extent` or `spacing`, and times in the unit of a `duration`, `every`, `speed` or
-/// `largest_step`. Every other quantity is in the first unit of the script that measures it, and so
-/// are lengths and times if these settings have no unit. A quantity that no unit of the script
-/// measures is in m, s, mol, kg, A or K.
+/// `largest_step`. Every other quantity is in the first unit in the script that measures this
+/// quantity. The same holds for lengths and times if these settings have no unit. A quantity that
+/// no unit in the script measures is in its base unit: m, s, mol, kg, A or K.
 class ScriptUnits {
 public:
     ScriptUnits();
 
-    /// Whether a unit of this script measures the quantity. Units such as m measure length, but l
-    /// and M do not. Every unit that contains a time measures time.
+    /// Whether a unit of this script measures the quantity. For length, units such as m count, but
+    /// l and M do not. For time, every unit that contains a time counts.
     bool knows(BaseQuantity quantity) const { return known_[static_cast<std::size_t>(quantity)]; }
-    /// Whether no number of the script has a unit.
+    /// Whether no number in the script has a unit.
     bool empty() const;
     /// Converts a number in `unit` to the script's units.
     double convert(double number, const Unit& unit) const;
-    /// The unit that numbers of this dimension have in this script: `um^2/s`. Empty for plain
-    /// numbers.
+    /// The unit that numbers of this dimension have in this script: `um^2/s`. Empty for numbers
+    /// without a unit.
     std::string name_of(const Dimension& dimension) const;
 
     friend ScriptUnits units_of(const ast::Script& script);
@@ -38,8 +38,9 @@ public:
 private:
     struct Base {
         std::string name;
-        Dimension dimension;  ///< Of the unit `name`, which may measure further quantities.
-        Unit size;            ///< The unit of the base quantity alone.
+        /// The dimension of the unit `name`, which may also measure other quantities.
+        Dimension dimension;
+        Unit size;  ///< The unit of the base quantity alone.
         bool is_given = false;
     };
 
@@ -54,25 +55,27 @@ private:
 
 ScriptUnits units_of(const ast::Script& script);
 
-/// The unit of an expression that is one number with a unit, or such a number with a sign. Empty
+/// The unit of an expression that consists of one number with a unit, with or without a sign. Empty
 /// for all other expressions.
 std::string_view unit_text_of(const ast::Script& script, ast::Expression expression);
 
-/// The unit of the value that `--set name=…` replaces, or `--set stage.name=…` if `stage` is not
-/// empty. Empty if this value is not one number with a unit.
+/// The unit of the value that `--set name=…` replaces. If `stage` is not empty, the unit of the
+/// value that `--set stage.name=…` replaces. Empty if the value is not one number with a unit.
 std::string_view unit_of_value(const ast::Script& script, std::string_view stage,
                                std::string_view name);
 
-/// If the expression is the script's last one and is a number without a unit, gives it `unit`.
+/// Gives `unit` to an expression if it is the last expression of the script and a number without a
+/// unit.
 void give_unit(ast::Script& script, ast::Expression& expression, std::string_view unit);
 
-/// The parts of a script that have a unit: the dimension of each, by its source location.
+/// Maps the source location of each number with a unit, and of each length of the domain, to its
+/// dimension.
 class MeasuredSpans {
 public:
     MeasuredSpans() = default;
     explicit MeasuredSpans(const ast::Script& script);
-    /// Null if the part at this location is neither a number with a unit nor a length of the
-    /// domain.
+    /// The dimension of the part at this location. Null if the part is neither a number with a unit
+    /// nor a length of the domain.
     const Dimension* find(Span span) const;
 
 private:

@@ -1,5 +1,5 @@
-// The added statements have the source location of the statement u'' = e, so that messages point to
-// it.
+// Adds the statements that u'' = e implies. An added statement has the source location of u'' = e,
+// so that messages point there.
 #include "lang/syntax/second_rates.h"
 
 #include "lang/syntax/index_words.h"
@@ -21,7 +21,7 @@ ast::ExprId append(ast::Script& script, Span span, decltype(ast::Expr::node) nod
     return static_cast<ast::ExprId>(script.expressions.size() - 1);
 }
 
-/// An expression that reads u_t, u_t[i], u_t[2] or u_t[i, 2].
+/// Appends an expression that reads u_t, u_t[i], u_t[2] or u_t[i, 2].
 ast::Expression read(ast::Script& script, const ast::Word& name, const ast::Word& index) {
     const ast::ExprId base = append(script, name.span, ast::Name{name.text});
     if (index.empty()) return {base, base};
@@ -37,7 +37,7 @@ ast::Expression read(ast::Script& script, const ast::Word& name, const ast::Word
     return {base, append(script, name.span, ast::Indexed{base, which[0], second})};
 }
 
-/// Whether the block gives the name a value. A family needs a value for each member.
+/// Whether the block gives a value to the name. A family has a value only if each member has.
 bool has_value(const ast::Block& block, const ast::Word& name, const ast::Word& index) {
     return std::ranges::any_of(block.statements, [&](const ast::Statement& each) {
         return each.kind == ast::StatementKind::value && each.name.text == name.text &&
@@ -59,8 +59,8 @@ void complete_second_rates(ast::Script& script, ast::Block& block) {
         ast::Statement added;
         added.index = second.index;
         added.span = second.span;
-        // A rate with several terms, u'' += e, has several statements, but u' = u_t is added only
-        // once.
+        // If a rate has several terms, u'' += e, it has several statements, but u' = u_t must be
+        // added only once.
         const auto is_added = [&](const ast::Statement& each) {
             return each.kind == ast::StatementKind::rate && each.name.text == second.second.text &&
                    each.index.text == second.index.text;

@@ -8,11 +8,11 @@
 
 namespace cascade {
 
-/// The name of the species that is the rate of `species`: u_t for u.
+/// The name of the species whose value is the rate of `species`: u_t for u.
 std::string_view name_of_rate(std::string_view species);
 
 /// Completes a block in which the parser has read each u'' = e as u_t' = e. Adds u' = u_t. Also
-/// adds u_t: 0, unless the block sets u_t or has a base, which may set u_t.
+/// adds u_t: 0, unless the block sets u_t, or has a base that may set it.
 void complete_second_rates(ast::Script& script, ast::Block& block);
 
 }  // namespace cascade

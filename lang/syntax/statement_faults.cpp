@@ -1,4 +1,5 @@
-// Reports statements that no grammar allows: foreign relations, missing colons, misspelt blocks.
+// Reports statements that the grammar does not allow: foreign relations, missing colons, misspelt
+// blocks.
 #include "lang/syntax/script_parser.h"
 
 #include "core/near_name.h"
@@ -16,7 +17,7 @@ namespace cascade {
 
 namespace {
 
-/// Words of other programs for sides.
+/// A word that other programs use for sides, and the sides that it means.
 struct SideElsewhere {
     std::string_view word, side;
 };
@@ -43,8 +44,8 @@ std::string side_meant_by(std::string_view word) {
 
 }  // namespace
 
-/// A hint about a statement's index, whose first token is at the cursor. For a step in time, as in
-/// `u[t + 1] = e`, the hint suggests a rate.
+/// A hint about the index of a statement. The cursor is at the index's first token. If the index is
+/// a step in time, as in `u[t + 1] = e`, the hint suggests a rate.
 std::string ScriptParser::hint_of_index(std::string_view name) const {
     const bool is_time = cursor_.at(TokenKind::name) && cursor_.kind(1) == TokenKind::plus &&
                          (cursor_.at_name("t") || cursor_.at_name("n"));
@@ -52,12 +53,12 @@ std::string ScriptParser::hint_of_index(std::string_view name) const {
     return fmt::format("write {0}[i] or {0}[1]", name);
 }
 
-/// Reports that no statement begins here. Returns false.
+/// Reports that no statement begins at the cursor. Returns false.
 bool ScriptParser::report_no_statement() {
     const Token token = cursor_.peek();
     const std::string word = cursor_.describe(token);
     switch (token.kind) {
-        case TokenKind::garbage: break;  // The lexer has reported an error.
+        case TokenKind::garbage: break;  // An error has already been reported by the lexer.
         case TokenKind::keyword_and:
         case TokenKind::keyword_or:
         case TokenKind::keyword_not:
@@ -88,7 +89,7 @@ void ScriptParser::report_dot(const ast::Statement& statement) {
                                : fmt::format("did you mean {}.{}?", statement.name.text, near));
 }
 
-/// Reports `u''' = e`, which cannot be converted to second derivatives, and skips its value.
+/// Reports `u''' = e`, which cannot be converted to second rates, and skips the value.
 bool ScriptParser::report_third_rate(const ast::Statement& statement) {
     while (cursor_.at(TokenKind::prime)) cursor_.take();
     const std::string name = shortened(cursor_.text(statement.name.span));
@@ -99,7 +100,7 @@ bool ScriptParser::report_third_rate(const ast::Statement& statement) {
     return false;
 }
 
-/// Reports `du/dt = e` and continues as with the rate of u.
+/// Reports `du/dt = e`, and continues as if it were the rate of u.
 bool ScriptParser::take_paper_rate(ast::Statement& statement) {
     const std::string_view name = statement.name.text;
     const bool is_rate = name.size() > 1 && name[0] == 'd' && cursor_.at(TokenKind::slash) &&
@@ -116,7 +117,7 @@ bool ScriptParser::take_paper_rate(ast::Statement& statement) {
 }
 
 /// Reports a name without a relation. Usually a colon is missing, or the name is a misspelt keyword
-/// of a block. Returns true if parsing can continue with the value.
+/// of a block. Returns true if a value follows, with which parsing can continue.
 bool ScriptParser::report_missing_colon(const ast::Statement& statement) {
     const ast::Word& name = statement.name;
     const std::string quoted = cursor_.describe({TokenKind::name, name.span});
@@ -140,7 +141,7 @@ bool ScriptParser::report_missing_colon(const ast::Statement& statement) {
                   hint_of_missing_colon(name));
     const std::size_t next = after_index([this](std::size_t at) { return cursor_.kind(at); }, 0);
     if (next > 0 && cursor_.kind(next) != TokenKind::newline) {
-        cursor_.skip_statement();  // For example `u [i]: e`, where no value follows the name.
+        cursor_.skip_statement();  // For example, in `u [i]: e` no value follows the name.
         return false;
     }
     switch (cursor_.kind()) {
@@ -182,8 +183,8 @@ std::string ScriptParser::hint_of_missing_colon(const ast::Word& name) const {
     return fmt::format("write '{}: …' for a starting value", name.text);
 }
 
-/// Whether the tokens from `ahead` on look like a block after its keyword: ` {`, ` large {`, `
-/// large: leopard {`, ` thorn: scale, guide {`.
+/// Whether the tokens from `ahead` on look like the part of a block after the keyword: ` {`, `
+/// large {`, ` large: leopard {`, ` thorn: scale, guide {`.
 bool ScriptParser::has_shape_of_block(std::size_t ahead) const {
     const bool is_derived = cursor_.kind(ahead) == TokenKind::name &&
                             cursor_.kind(ahead + 1) == TokenKind::colon &&
@@ -201,8 +202,7 @@ bool ScriptParser::has_shape_of_block(std::size_t ahead) const {
     return cursor_.kind(ahead) == TokenKind::open_curly;
 }
 
-/// Reports that a word does not begin a block. Returns the keyword that was probably intended, or
-/// "".
+/// Reports that no block begins with a word. Returns the keyword that was probably intended, or "".
 std::string ScriptParser::report_no_block(const ast::Word& word) {
     const std::array<std::string, 6> of_blocks = {"system", "cells",   "stage",
                                                   "domain", "picture", "shape"};
@@ -214,7 +214,7 @@ std::string ScriptParser::report_no_block(const ast::Word& word) {
     return near;
 }
 
-/// Reports a type as in other languages, `feed: float = 0.037`, and continues after it.
+/// Reports a type as other languages write it, `feed: float = 0.037`, and continues after the type.
 void ScriptParser::skip_type(const ast::Word& name) {
     static constexpr std::array<std::string_view, 9> types = {"float",   "double", "int",
                                                               "integer", "real",   "number",

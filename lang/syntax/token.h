@@ -12,7 +12,7 @@
 
 namespace cascade {
 
-/// CASCADE_TOKEN(name, spelling): `spelling` appears in messages and in `--dump tokens`.
+/// CASCADE_TOKEN(name, spelling). `spelling` appears in messages and in `--dump tokens`.
 #define CASCADE_TOKENS(CASCADE_TOKEN)                                                      \
     CASCADE_TOKEN(end_of_text, "end of text")                                              \
     CASCADE_TOKEN(newline, "line end")                                                     \
@@ -74,21 +74,21 @@ struct Token {
     std::string_view text = {};
 };
 
-/// The largest number of tokens in a script. This limits the memory that later passes need. A
-/// longer script is refused with one message.
+/// The largest number of tokens in a script. The limit bounds the memory that later passes need. A
+/// script with more tokens is refused with one message.
 inline constexpr std::size_t most_tokens = 1u << 22;
 
-/// Splits a source into tokens. The last token is end_of_text. Line breaks are tokens, of which
-/// several in a row become one. Comments and blanks are dropped. The notation of papers becomes
-/// equivalent tokens (paper_notation.h). Bad input is reported once for each run of characters, so
-/// that one mistake gives one message: a stray character, invalid UTF-8, NUL, an unclosed string, a
-/// look-alike such as ’ – ÷. Such a run becomes the token `garbage`, or, for a look-alike, the
-/// token that was meant. If `docs` is given, the locations of doc comments are added to it (`##
-/// text`; `###` begins an ordinary comment).
+/// Splits a source into tokens. The last token is end_of_text. Line breaks are tokens, and several
+/// line breaks in a row become one token. Comments and blanks are dropped. The notation of papers
+/// becomes equivalent tokens (paper_notation.h). Bad input is a stray character, invalid UTF-8,
+/// NUL, an unclosed string, or a look-alike such as ’ – ÷. It is reported once for each run of
+/// characters, so that one mistake gives one message. A run becomes the token `garbage`, and a run
+/// of look-alikes becomes the token that was meant. If `docs` is given, the locations of doc
+/// comments (`## text`) are added to it. `###` begins an ordinary comment.
 std::vector<Token> lex(SourceId source, const Sources& sources, Diagnostics& diagnostics,
                        std::vector<Span>* docs = nullptr);
 
-/// The tokens as text, one per line: `3:5 name "ka"`.
+/// Prints tokens as text, one per line: `3:5 name "ka"`.
 std::string print_tokens(const std::vector<Token>& tokens, const Sources& sources);
 
 }  // namespace cascade

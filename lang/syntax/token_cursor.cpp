@@ -1,4 +1,4 @@
-// Moves over tokens, and finds the end of a statement with errors.
+// Moves over tokens, and finds the end of a statement that has errors.
 #include "lang/syntax/token_cursor.h"
 
 #include "lang/syntax/index_words.h"
@@ -10,7 +10,8 @@ namespace cascade {
 
 namespace {
 
-constexpr std::size_t longest_shown = 40;  // The most bytes of a script's words in a message.
+// Messages quote at most this number of bytes of a script.
+constexpr std::size_t longest_shown = 40;
 
 }  // namespace
 
@@ -27,9 +28,8 @@ const Token& TokenCursor::peek(std::size_t ahead) const {
 
 const Token& TokenCursor::previous() const {
     std::size_t before = position_ == 0 ? 0 : position_ - 1;
-    if (before > 0 && tokens_[before].kind == TokenKind::newline)
-        --before;  // There is at most one
-                   // line break in a row.
+    // There are never two line breaks in a row.
+    if (before > 0 && tokens_[before].kind == TokenKind::newline) --before;
     return tokens_[before];
 }
 
@@ -137,8 +137,8 @@ bool TokenCursor::begins_block(std::size_t ahead) const {
                kind(ahead + 3) == TokenKind::open_curly;
     }
     if (word == "cells" || word == "shape") {
-        // A quantity may have the name of such a keyword, as in `cells in 0 .. 1` or `sum(cells
-        // over i)`.
+        // The words `cells` and `shape` may also be names of quantities, as in `cells in 0 .. 1` or
+        // `sum(cells over i)`.
         const std::size_t name = next == TokenKind::name ? ahead + 2 : ahead + 1;
         const std::size_t brace = kind(name) == TokenKind::newline ? name + 1 : name;
         if (kind(brace) == TokenKind::open_curly) return true;

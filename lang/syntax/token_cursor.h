@@ -23,31 +23,30 @@ public:
     TokenKind kind(std::size_t ahead = 0) const { return peek(ahead).kind; }
     bool at(TokenKind kind) const { return peek().kind == kind; }
     bool at_end() const { return at(TokenKind::end_of_text); }
-    /// The last token that was taken and is not a line break. The first token if none has been
-    /// taken.
+    /// The last token that was taken and is not a line break. If there is none, the first token.
     const Token& previous() const;
-    /// The token `count` places before the one at the cursor, line breaks included. The first token
-    /// if there are not so many.
+    /// The token `count` places before the present token. Line breaks count, too. If there are
+    /// fewer tokens before the present one, the first token.
     const Token& behind(std::size_t count) const {
         return tokens_[position_ < count ? 0 : position_ - count];
     }
-    /// The end of the token that was taken last, even if this is a line break. 0 if only line
-    /// breaks were taken.
+    /// The position at which the last taken token ends, even if this token is a line break. 0 if
+    /// only line breaks were taken.
     std::uint32_t taken_up_to() const;
     Token take();
     bool take_if(TokenKind kind);
     /// Moves back to the token that was taken last.
     void step_back();
     void skip_newlines() { take_if(TokenKind::newline); }
-    /// Skips line breaks inside brackets. Stops if the next line begins a statement: then the
-    /// closing bracket is missing.
+    /// Skips line breaks inside brackets. Stops before a line that begins a statement, because then
+    /// the closing bracket is missing.
     void skip_newlines_in_brackets() {
         if (at(TokenKind::newline) && !begins_statement(1)) take();
     }
     std::size_t position() const { return position_; }
     std::size_t token_count() const { return tokens_.size(); }
 
-    /// The token's text for the parser. In a script without errors it is ASCII.
+    /// The text of the token for the parser. In a script without errors, this text is ASCII.
     std::string_view text(const Token& token) const { return token.text; }
     std::string_view text(Span span) const { return sources_.text(span); }
     /// The rest of the line after the token, including comments.
@@ -62,37 +61,38 @@ public:
     /// Warns of doc comments that no call has taken.
     void report_lost_docs();
 
-    /// Whether the token here is a line break, `;`, `}` or the end of the text.
+    /// Whether the present token is a line break, `;`, `}` or the end of the text.
     bool at_statement_end() const;
-    /// Whether a block begins here. In other places `system`, `cells`, `stage`, `domain` and
-    /// `picture` are names.
+    /// Whether a block begins at the cursor. In other places, `system`, `cells`, `stage`, `domain`
+    /// and `picture` are names.
     bool begins_block(std::size_t ahead = 0) const;
-    /// Whether `0 = ` begins here.
+    /// Whether `0 = ` begins at the cursor.
     bool begins_constraint(std::size_t ahead = 0) const;
-    /// Whether a statement or a block begins here. Recognises this by tokens that no correct
-    /// expression contains.
+    /// Whether a statement or a block begins at the cursor. Recognises both by tokens that no
+    /// correct expression contains.
     bool begins_statement(std::size_t ahead = 0) const;
-    /// Whether the token here is a name with this text.
+    /// Whether the present token is a name with this text.
     bool at_name(std::string_view name, std::size_t ahead = 0) const;
 
-    /// The unit that begins here, directly after a number.
+    /// The unit that begins at the cursor, directly after a number.
     UnitSuffix unit_here() const;
     /// Whether the script declares this name (lang/syntax/unit_suffix.h).
     bool declares(std::string_view name) const;
 
-    /// Whether the text between `from` and here has an unclosed string that contains `swallowed`.
-    /// If so, `swallowed` must not be reported as missing.
+    /// Whether an unclosed string between `from` and the cursor contains `swallowed`. If so,
+    /// `swallowed` must not be reported as missing.
     bool lost_in_text(const Token& from, std::string_view swallowed) const;
 
-    /// Moves to the end of the statement. `open_brackets` brackets are open at the cursor. Skips
-    /// whole { }.
+    /// Moves to the end of the statement, and skips whole blocks { } on the way. `open_brackets` is
+    /// the number of brackets that are open at the cursor.
     void skip_statement(std::size_t open_brackets = 0);
 
     void error(Span span, std::string message, std::string hint = "");
     void error(Diagnostic diagnostic);
     /// The number of errors reported so far.
     std::size_t error_count() const { return diagnostics_.error_count(); }
-    /// While muted, errors are dropped, because the mistake has already been reported.
+    /// Mutes or unmutes the cursor. A muted cursor drops errors, because the mistake has already
+    /// been reported.
     void mute(bool muted) { muted_ = muted; }
 
 private:
@@ -100,16 +100,16 @@ private:
 
     const Sources& sources_;
     Diagnostics& diagnostics_;
-    std::vector<Span> docs_;        ///< Doc comments, in order.
-    std::vector<bool> docs_taken_;  ///< For each of them, whether it was taken.
+    std::vector<Span> docs_;        ///< The locations of doc comments, in order.
+    std::vector<bool> docs_taken_;  ///< For each doc comment, whether it was taken.
     std::vector<Token> tokens_;
     std::size_t position_ = 0;
-    /// declared_names() of the tokens, once it has been asked for.
+    /// The result of declared_names() for the tokens, once it has been needed.
     mutable std::optional<std::unordered_set<std::string_view>> declared_;
     bool muted_ = false;
 };
 
-/// A name for messages. Long names are cut.
+/// A name as messages show it. Long names are cut.
 std::string shortened(std::string_view name);
 
 /// Whether an operand must follow this token. A line break after such a token does not end the

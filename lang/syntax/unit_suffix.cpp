@@ -51,7 +51,7 @@ bool is_part_of_unit(TokenKind kind) {
     }
 }
 
-/// Reads the factors of one unit.
+/// Reads the factors of a unit.
 class SuffixReader {
 public:
     SuffixReader(std::span<const Token> tokens, std::size_t at,
@@ -79,7 +79,8 @@ private:
         found_.hint = std::move(hint);
     }
 
-    /// Whether the token has the name of a unit and is no call, no member and no new statement.
+    /// Whether the token at `at` names a unit, and is not a call, a member or the beginning of a
+    /// statement.
     bool is_unit(std::size_t at) const {
         if (kind(at) != TokenKind::name || !unit_named(token(at).text)) return false;
         const Token& next = token(at + 1);
@@ -93,7 +94,7 @@ private:
     }
     bool is_declared(std::size_t at) const { return declared_.contains(token(at).text); }
 
-    /// Moves to the first name: after the blank, the `/` or the `1/`.
+    /// Moves to the first name of a unit: after the blank, the `/` or the `1/`.
     bool read_begin() {
         if (begin_ == 0 || touch(token(begin_ - 1), token(begin_))) return false;
         const bool is_one = kind(at_) == TokenKind::number && token(at_).text == "1" &&
@@ -131,11 +132,12 @@ private:
         return true;
     }
 
-    /// Reads the sign before a further factor. Returns false at the end of the unit.
+    /// Reads the sign before the next factor. Returns false if the unit ends here.
     bool read_sign() {
         const Token& sign = token(at_);
         if (sign.kind != TokenKind::star && sign.kind != TokenKind::slash) return false;
-        const bool is_left_out = sign.span.begin == sign.span.end;  // As in `m² s⁻¹`.
+        // The product sign may be omitted, as in `m² s⁻¹`.
+        const bool is_left_out = sign.span.begin == sign.span.end;
         const bool is_tight =
             is_left_out || (touch(token(at_ - 1), sign) && touch(sign, token(at_ + 1)));
         if (!is_tight || !is_unit(at_ + 1)) return false;
@@ -187,7 +189,8 @@ std::string spelling_in_unit(const std::string& spelling, std::string_view name,
                           unit_named("u" + spelling.substr(2));
     for (std::size_t k = before.size(); is_micro && k-- > 0;) {
         const Token& token = before[k];
-        // A unit contains no blanks, and a number comes before the blank that precedes it.
+        // A unit contains no blanks. So if a blank comes before this part, the token before the
+        // blank must be a number.
         if (token.span.end != offset) {
             return token.kind == TokenKind::number ? spelling.substr(1) : spelling;
         }

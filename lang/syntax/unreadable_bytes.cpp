@@ -15,7 +15,8 @@ bool is_unreadable(std::string_view text, std::size_t offset) {
 
 namespace {
 
-/// The message about a run of bytes. Either all are NUL, or all are not UTF-8.
+/// The message about a run of bytes. Either all bytes of the run are NUL, or none is part of valid
+/// UTF-8.
 std::string describe_run(std::string_view run) {
     if (run[0] == '\0') {
         return run.size() == 1 ? "a NUL byte (0x00) is not text"
@@ -36,7 +37,8 @@ std::string describe_run(std::string_view run) {
 
 void report_unreadable_bytes(SourceId source, std::string_view text, Diagnostics& diagnostics) {
     for (std::size_t offset = 0; offset < text.size();) {
-        if (static_cast<unsigned char>(text[offset] - 1) < 0x7f) {  // ASCII, not NUL.
+        // An ASCII character other than NUL.
+        if (static_cast<unsigned char>(text[offset] - 1) < 0x7f) {
             ++offset;
             continue;
         }

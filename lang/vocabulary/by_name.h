@@ -1,13 +1,13 @@
-// Calls the language's numeric functions on other kinds of numbers, such as intervals. Each kind
-// defines, for each function that it supports, a C++ function of the same name.
+// Calls numeric functions of the language on other kinds of numbers, such as intervals. For each
+// function that a kind supports, the kind defines a C++ function of the same name.
 #pragma once
 
 #include "lang/vocabulary/functions.h"
 
 namespace cascade {
 
-/// Calls the C++ function of this name for a kind of numbers, such as add(a, b), sqrt(a) or if_(a,
-/// b, c). Returns `otherwise` if the kind of number does not define this function.
+/// Calls the C++ function `name` of a kind of numbers, such as add(a, b), sqrt(a) or if_(a, b, c).
+/// Returns `otherwise` if the kind does not define the function.
 template <typename Value>
 Value call_by_name(Function function, const Value& a, const Value& b, const Value& c,
                    const Value& otherwise = {}) {

@@ -1,4 +1,4 @@
-// Groups of functions that several rules treat alike.
+// Groups of functions to which several rules apply.
 #pragma once
 
 #include "lang/vocabulary/functions.h"

@@ -58,7 +58,7 @@ ValueType type_of_result(Function function, std::span<const ValueType> operands)
         case ResultKind::colour: return ValueType::colour;
         case ResultKind::like: break;
     }
-    // The product of a tensor and a vector is a vector.
+    // Vectors come first, because the product of a tensor and a vector is a vector.
     for (const ValueType type : {ValueType::vector, ValueType::tensor, ValueType::colour}) {
         if (std::ranges::find(operands, type) != operands.end()) return type;
     }
@@ -100,7 +100,8 @@ Derivative derivative_of(Function function) {
     const FunctionInfo& row = info(function);
     if (row.kind != FunctionKind::derivative) return {};
     const auto axis = [&](std::size_t letter) { return row.spelling[letter] - 'x'; };
-    const int order = static_cast<int>(row.spelling.size()) - 1;  // The `d` is not an axis.
+    // One less, because the `d` is not an axis.
+    const int order = static_cast<int>(row.spelling.size()) - 1;
     return {order, axis(1), axis(row.spelling.size() - 1)};
 }
 

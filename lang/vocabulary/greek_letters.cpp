@@ -15,7 +15,8 @@ struct GreekLetter {
     std::string_view letter, spelling;
 };
 
-/// If several letters have the same spelling, the first of them is written.
+/// If several letters have the same ASCII spelling, the first letter in the table replaces the
+/// spelling.
 // clang-format off
 constexpr GreekLetter greek_letters[] = {
     {U'α', "α", "alpha"},  {U'β', "β", "beta"},   {U'γ', "γ", "gamma"},   {U'δ', "δ", "delta"},
@@ -27,8 +28,8 @@ constexpr GreekLetter greek_letters[] = {
     {U'Γ', "Γ", "Gamma"},  {U'Θ', "Θ", "Theta"},  {U'Λ', "Λ", "Lambda"},  {U'Ξ', "Ξ", "Xi"},
     {U'Π', "Π", "Pi"},     {U'Σ', "Σ", "Sigma"},  {U'Φ', "Φ", "Phi"},     {U'Ψ', "Ψ", "Psi"},
     {U'Ω', "Ω", "Omega"},
-    // In Unicode, each of these characters is equivalent to a letter above, canonically or by
-    // compatibility.
+    // Unicode defines each of these characters as equivalent to a letter above, either canonically
+    // or by compatibility.
     {U'\u00b5', "µ", "mu"},    {U'\u2126', "Ω", "Omega"}, {U'\u03f5', "ϵ", "epsilon"},
     {U'\u03d5', "ϕ", "phi"},   {U'\u03d1', "ϑ", "theta"}, {U'\u03f0', "ϰ", "kappa"},
     {U'\u03f1', "ϱ", "rho"},   {U'\u03d6', "ϖ", "pi"},    {U'\u1fbe', "ι", "iota"},

@@ -52,10 +52,12 @@ struct SettingLimits {
     enum class Kind : std::uint8_t {
         none,
         between,
-        above,   ///< Finite numbers above `low`.
-        whole,   ///< Whole numbers.
-        count,   ///< Whole numbers. For other numbers, the message states exactly what is wrong.
-        length,  ///< Numbers from `low` on, where `low` is above 0.
+        above,  ///< Finite numbers above `low`.
+        whole,  ///< Whole numbers.
+        /// Whole numbers. If any other number is given, the message states exactly what is wrong
+        /// with it.
+        count,
+        length,  ///< Numbers of at least `low`, where `low` is above 0.
         word,    ///< No numbers, only words.
     };
     Kind kind = Kind::none;
@@ -76,25 +78,25 @@ struct SettingInfo {
     std::string_view hint = "";
 };
 const SettingInfo& info(Setting setting);
-/// All rows of the table: first the rows of the settings, in the order of `Setting`, then rows for
-/// words that are also settings of another block.
+/// All rows of the table: first the settings in the order of `Setting`, then the rows for words
+/// that are also settings of another block.
 std::span<const SettingInfo> setting_rows();
 
 std::optional<Setting> setting_named(std::string_view word);
 /// Whether the word is a setting of the block.
 bool is_setting_of(SettingBlock block, std::string_view word);
-/// The settings of some blocks, in the order of the table.
+/// The settings of the given blocks, in the order of the table.
 std::vector<std::string> settings_of(std::initializer_list<SettingBlock> blocks);
 /// The words that are values of a setting.
 std::vector<std::string> words_taken_by(const SettingInfo& setting);
 inline std::vector<std::string> words_taken_by(Setting setting) {
     return words_taken_by(info(setting));
 }
-/// The block to which a word belongs as a setting, for hints in other blocks. "" for words that are
-/// not settings.
+/// The block in which a word is a setting, for hints in other blocks. "" for words that are not
+/// settings.
 std::string_view home_of(std::string_view word);
 
-/// Words that begin statements and blocks or separate the parts of an expression.
+/// Words that begin statements and blocks, and words that separate the parts of an expression.
 inline constexpr std::string_view keywords[] = {
     "system", "cells", "stage", "domain", "picture", "shape", "system_name", "fn", "let",
     "use",    "and",   "or",    "not",    "over",    "in",    "after",       "pi"};

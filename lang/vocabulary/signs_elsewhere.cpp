@@ -1,4 +1,4 @@
-// The table of LaTeX commands, and advice on signs and numbers of other programs.
+// The table of LaTeX commands, and advice on signs and numbers as other programs write them.
 #include "lang/vocabulary/signs_elsewhere.h"
 
 #include "core/decimal.h"
@@ -38,11 +38,11 @@ constexpr LatexCommand latex_commands[] = {
     {"tanh", "this is LaTeX; write tanh(u)"},
 };
 
-/// Names of counted things that newcomers write after a number like a unit, as in "20 steps".
+/// Names of things that newcomers write after a number, as if they were units: "20 steps".
 constexpr std::string_view counted_things[] = {"steps", "iterations", "cells", "pixels", "px"};
 
-/// Advice on `0x10` (as in other languages) and on `100x100` (the size of a screen). Empty for
-/// other words.
+/// Advice on numbers with an x: `0x10` as in other languages, and `100x100` for the size of a
+/// screen. Empty for other words.
 std::string advice_about_cross(std::string_view word) {
     constexpr std::size_t longest = 18;
     const std::size_t cross = word.find_first_of("xX");
@@ -69,8 +69,8 @@ std::string advice_about_cross(std::string_view word) {
     return "";
 }
 
-/// Advice on a command of LaTeX. `command` is its name without the backslash, empty for a backslash
-/// alone.
+/// Advice on a command of LaTeX. `command` is the name of the command without the backslash, and is
+/// empty if the backslash has no command after it.
 std::string advice_about_latex(std::string_view command) {
     for (const LatexCommand& each : latex_commands) {
         if (each.name == command) return std::string(each.advice);
@@ -89,8 +89,8 @@ std::string advice_about_unit(std::string_view number, std::string_view unit) {
 
 namespace {
 
-/// The operator of derivatives with which the text begins, and its operand. The size is 0 if the
-/// text begins with anything else.
+/// The operator of derivatives with which a LaTeX text begins, together with its operand. The size
+/// is 0 if the text begins with anything else.
 LatexText latex_operator(std::string_view text) {
     constexpr std::string_view nabla = "nabla", delta = "Delta";
     const bool is_nabla = text.starts_with(nabla);

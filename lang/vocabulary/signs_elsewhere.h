@@ -6,26 +6,26 @@
 
 namespace cascade {
 
-/// A command of LaTeX, or an operator with its operand.
+/// A command of LaTeX, or an operator of LaTeX and its operand.
 struct LatexText {
-    std::size_t size = 0;  ///< In bytes, without the backslash.
+    std::size_t size = 0;  ///< The size of the LaTeX text in bytes, without the backslash.
     std::string advice;
 };
 /// The command of LaTeX with which a text begins. The backslash before the command is not in the
 /// text. If the command is an operator of derivatives with a simple operand, such as \nabla^2 u,
-/// \nabla \cdot J or \Delta (u + v), the operand belongs to it.
+/// \nabla \cdot J or \Delta (u + v), the result includes the operand.
 LatexText latex_text(std::string_view text);
 
-/// Advice on a word after a number that resembles a unit but is none, as in "20 steps" or "5 C".
-/// Empty for units and for other words.
+/// Advice on a word after a number that looks like a unit but is not one, as in "20 steps" or "5
+/// C". Empty for units and for other words.
 std::string advice_about_unit(std::string_view number, std::string_view unit);
 
-/// Advice on a number that is directly followed by `tail`, as in 2u, 1e, 1cm, 0x10, or in 100x100
-/// (the size of a screen). `tail` must not be empty. The advice may be empty.
+/// Advice on a number that is directly followed by `tail`, as in 2u, 1e, 1cm, 0x10, or 100x100 (the
+/// size of a screen). `tail` must not be empty. The result is empty if there is no advice.
 std::string advice_about_number(std::string_view number, std::string_view tail);
 
-/// Advice on a line that begins with a colour of web pages, #ff8000 or #f80. Such a line is a
-/// comment in Cascade. Empty for other lines.
+/// Advice on a line that begins with a colour as web pages write it, #ff8000 or #f80. Cascade reads
+/// such a line as a comment. Empty for other lines.
 std::string advice_about_hex_colour(std::string_view line);
 
 }  // namespace cascade

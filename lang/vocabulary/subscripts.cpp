@@ -1,6 +1,7 @@
-// Derivatives commute, so only the number of derivatives along each axis counts. Second derivatives
-// along one axis are taken first, because they have the smallest stencils. Then at most one
-// derivative along each axis is left.
+// Derivatives in subscripts, such as u_xxy. Derivatives commute, so only the number of derivatives
+// along each axis counts. Pairs of derivatives along the same axis are taken first, as second
+// derivatives, because these have the smallest stencils. After that, at most one derivative along
+// each axis is left.
 #include "lang/vocabulary/subscripts.h"
 
 #include <algorithm>
@@ -35,7 +36,7 @@ std::array<std::size_t, 3> orders_along(std::string_view axes) {
 std::vector<Function> derivatives_along(std::string_view axes) {
     const auto orders = orders_along(axes);
     std::vector<Function> functions;
-    std::string left;  // Axes with one derivative left.
+    std::string left;  // The axes along which one derivative is left.
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const char letter = axis_letters[axis];
         functions.insert(functions.end(), orders[axis] / 2, derivative({letter, letter}));

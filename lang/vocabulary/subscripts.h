@@ -14,23 +14,23 @@ namespace cascade {
 
 /// A name such as u_xxy in two parts.
 struct SubscriptedName {
-    std::string_view of;    ///< u
-    std::string_view axes;  ///< xxy: only the letters x, y and z.
+    std::string_view of;    ///< The name before the `_`: u.
+    std::string_view axes;  ///< The letters after the `_`: xxy. Only x, y and z.
 };
 
 /// The highest order of a derivative that is written as a subscript.
 inline constexpr std::size_t most_subscripts = 8;
 
-/// The parts of a name that ends in `_` and letters x, y, z. Empty for other names. Whether the
+/// The two parts of a name that ends in `_` and letters x, y, z. Empty for other names. Whether the
 /// name means a derivative also depends on the names that the script declares.
 std::optional<SubscriptedName> subscripted_name(std::string_view name);
 
-/// The number of times each axis occurs, as x, y, z.
+/// How often x, y and z occur in `axes`, in this order.
 std::array<std::size_t, 3> orders_along(std::string_view axes);
 
-/// The functions that give the derivative along these axes if each is applied to the result of the
-/// one before: dxx, dyy for xxyy; dxx, dx for xxx; dxx, dxy for xxxy. The order of the axes has no
-/// effect.
+/// The functions that together give the derivative along these axes, if each function is applied to
+/// the result of the previous one: dxx, dyy for xxyy; dxx, dx for xxx; dxx, dxy for xxxy. The order
+/// of the letters in `axes` has no effect.
 std::vector<Function> derivatives_along(std::string_view axes);
 
 }  // namespace cascade

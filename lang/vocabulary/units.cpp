@@ -20,7 +20,8 @@ struct UnitRow {
     std::string_view name;
     std::string_view prefixes;  ///< The prefixes that the unit may have.
     std::string_view long_names;
-    std::array<std::int8_t, base_quantity_count> powers;  ///< Of m, s, mol, kg, A, K.
+    /// The powers of m, s, mol, kg, A and K in the unit.
+    std::array<std::int8_t, base_quantity_count> powers;
     double times;
     int decimals;
 };
@@ -52,7 +53,7 @@ constexpr UnitRow unit_rows[] = {
 };
 // clang-format on
 
-/// The power of ten of a prefix.
+/// The power of ten that a prefix stands for.
 int decimals_of_prefix(char prefix) {
     switch (prefix) {
         case 'G': return 9;
@@ -64,7 +65,7 @@ int decimals_of_prefix(char prefix) {
         case 'u': return -6;
         case 'n': return -9;
         case 'p': return -12;
-        default: return -15;  // f
+        default: return -15;  // The prefix f.
     }
 }
 
@@ -88,7 +89,7 @@ bool has_long_name(const UnitRow& row, std::string_view name) {
     return false;
 }
 
-/// Divides `times` and `over` by their greatest common divisor.
+/// Divides the unit's `times` and `over` by their greatest common divisor.
 Unit reduced(Unit unit) {
     constexpr double most = 0x1p53;
     if (unit.times > most || unit.over > most) return unit;

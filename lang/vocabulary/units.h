@@ -1,4 +1,4 @@
-// Units of numbers, such as m, h, uM or m^2/s: their dimensions and sizes.
+// Units of numbers, such as m, h, uM or m^2/s, with their dimensions and sizes.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@ namespace cascade {
 enum class BaseQuantity : std::uint8_t { length, time, amount, mass, current, temperature };
 inline constexpr std::size_t base_quantity_count = 6;
 
-/// The powers of the base quantities in a unit. They are counted in sixths, so that square roots
-/// and cube roots have a dimension, too.
+/// The powers of the base quantities in a unit. The powers are stored in sixths, so that square
+/// roots and cube roots of units have a dimension, too.
 struct Dimension {
     std::array<std::int16_t, base_quantity_count> sixths{};
 
@@ -25,7 +25,7 @@ struct Dimension {
         dimension.sixths[static_cast<std::size_t>(quantity)] = static_cast<std::int16_t>(6 * power);
         return dimension;
     }
-    /// Whether this is the dimension of a plain number.
+    /// Whether this is the dimension of a number without a unit.
     bool is_none() const { return *this == Dimension{}; }
     std::int16_t operator[](BaseQuantity quantity) const {
         return sixths[static_cast<std::size_t>(quantity)];
@@ -35,11 +35,12 @@ struct Dimension {
 
 Dimension operator*(const Dimension& a, const Dimension& b);
 Dimension operator/(const Dimension& a, const Dimension& b);
-/// The dimension to the power `power`. Empty unless each power in the result is a multiple of 1/6
-/// and at most 1000 in magnitude.
+/// Raises a dimension to a power. Empty unless every power in the result is a multiple of 1/6 and
+/// at most 1000 in magnitude.
 std::optional<Dimension> to_power(const Dimension& dimension, double power);
 
-/// A unit: `times / over * 10^decimals` of m, s, mol, kg, A and K. `times` and `over` are whole.
+/// A unit is `times / over * 10^decimals` in terms of m, s, mol, kg, A and K. `times` and `over`
+/// are integers.
 struct Unit {
     Dimension dimension;
     double times = 1, over = 1;
@@ -47,26 +48,27 @@ struct Unit {
 };
 Unit operator*(const Unit& a, const Unit& b);
 Unit operator/(const Unit& a, const Unit& b);
-/// The unit to a whole power.
+/// Raises a unit to an integer power.
 Unit to_power(const Unit& unit, int power);
-/// Converts a number in `unit` to m, s, mol, kg, A and K.
+/// Converts a number from `unit` to the base units m, s, mol, kg, A and K.
 double in_base_units(double number, const Unit& unit);
 
 /// The unit with this name, with or without a prefix, such as m, um or hour. Empty for other words.
 std::optional<Unit> unit_named(std::string_view name);
-/// The short name of the unit with this name: h for hour. The name itself if it is short.
+/// The short name of the unit that `name` means: h for hour. If `name` is already short, the result
+/// is `name`.
 std::string_view short_name_of_unit(std::string_view name);
-/// A hint about a word that was written as a unit but is none; may be empty.
+/// A hint about a word that was written as a unit but is not one. Empty if there is no hint.
 std::string advice_about_unknown_unit(std::string_view word);
 
-/// A part of a unit: m^2 in m^2/s.
+/// A factor of a unit: m^2 in m^2/s.
 struct UnitFactor {
     std::string_view name;
     int power = 1;
 };
 /// The factors of a unit, such as m^2/s, mol*l^-1 or 1/s.
 std::vector<UnitFactor> factors_of_unit(std::string_view text);
-/// The unit with this text.
+/// The unit that this text means.
 Unit unit_of(std::string_view text);
 
 /// In the syntax tree, `3 m^2/s` is a call of a function with one argument, 3. The name of this

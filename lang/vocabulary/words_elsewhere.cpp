@@ -167,7 +167,7 @@ bool is_same(std::string_view a, std::string_view b) {
     });
 }
 
-/// Whether `words` contains `word`.
+/// Whether the list `words`, separated by blanks, contains `word`.
 bool has_word(std::string_view words, std::string_view word) {
     while (!words.empty()) {
         const std::size_t end = std::min(words.find(' '), words.size());

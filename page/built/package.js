@@ -227,7 +227,7 @@ var Pattern = class {
   session() {
     return this.ask({ do: "log" }).text;
   }
-  /// All slices of a volume along z, each of which is a snapshot.
+  /// The values of a volume, from snapshots of all its slices along z.
   volume([width, height, depth]) {
     const data = new Float32Array(width * height * depth);
     for (let k = 0; k < depth; ++k) {

@@ -6,7 +6,10 @@ export interface Message {
     message: string;
     /** What to write instead. May be empty. */
     hint: string;
-    /** The start and end in the script: a line, from 1, and a column, from 0. Missing if it has no place. */
+    /**
+     * The start and end in the script: a line, from 1, and a column, from 0. Missing if the message
+     * has no place.
+     */
     from?: [number, number];
     to?: [number, number];
 }
@@ -41,7 +44,10 @@ export interface Options {
     seed?: number;
     /** Files that the script reads, by their names: NumPy arrays (.npy). */
     files?: Record<string, Uint8Array>;
-    /** The bits of the program also where numbers are below 1.2e-38. Steps then take eight times as long. */
+    /**
+     * Whether results have the bits of the program also where numbers are below 1.2e-38. Steps then
+     * take eight times as long.
+     */
     exact?: boolean;
 }
 
@@ -73,18 +79,24 @@ export class Pattern {
     /** The names of the species of the present stage. */
     readonly species: string[];
     readonly stages: string[];
-    /** The stage that takes steps now. The last one when all have finished. */
+    /** The stage that takes steps now, or the last stage when all have finished. */
     readonly stage: string;
     /** The number of complete steps of the present stage. */
     readonly steps: number;
     /** Remarks about the result, one sentence each. */
     readonly remarks: string[];
     readonly finished: boolean;
-    /** Takes up to `count` steps, and continues with the next stage when one ends. Returns how many were taken. */
+    /**
+     * Takes at most `count` steps, and continues with the next stage when one ends. Returns how
+     * many were taken.
+     */
     step(count?: number): number;
     /** Takes all steps. */
     run(): this;
-    /** The values of an expression in all cells, such as "b" or "a - b". NaN outside a mask. */
+    /**
+     * The values of an expression, such as "b" or "a - b", in all cells. They are NaN outside a
+     * mask.
+     */
     values(expression: string): Values;
     /** The present picture as a PNG file. Surfaces in space cannot be drawn. */
     picture(options?: PictureOptions): Uint8Array;
@@ -105,7 +117,7 @@ export class Pattern {
 
 export class Cascade {
     private constructor();
-    /** Loads the engine beside the package, or one from its bytes. */
+    /** Loads the engine beside the package, or an engine from its bytes or its module. */
     static load(engine?: BufferSource | WebAssembly.Module): Promise<Cascade>;
     /** Checks a script and computes its starting values. Throws a CascadeError if it has errors. */
     pattern(script: string, options?: Options): Pattern;

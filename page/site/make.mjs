@@ -12,7 +12,7 @@ const list = (path, ending) => readdirSync(join(root, path)).filter((name) => na
 const escape = (text) => text.replaceAll("&", "&amp;").replaceAll("<", "&lt;").replaceAll('"', "&quot;");
 const unescape = (text) => text.replaceAll("&lt;", "<").replaceAll("&gt;", ">").replaceAll("&quot;", '"').replaceAll("&amp;", "&");
 
-/// Where each Markdown file is found on the site.
+/// The page of the site that is made of each Markdown file.
 const in_folder = (from, to) => list(from, ".md").map((name) => [`${from}/${name}`, `${to}/${name.replace("README.md", "index.md").replace(/md$/, "html")}`]);
 const pages = new Map([
     ...["tutorial", "tutorial_text", "tutorial_python", "python", "clusters", "importing", "devices", "ranks", "one_step", "beside_others", "glossary", "site"]
@@ -20,7 +20,7 @@ const pages = new Map([
     ["examples/models/README.md", "systems.html"], ["examples/museum/README.md", "museum.html"], ["examples/lessons/README.md", "lessons.html"],
     ...in_folder("docs/how_to", "how_to"), ...in_folder("docs/explanation", "explanation"), ...in_folder("spec", "spec"),
 ]);
-/// The pages in the header of each page, in the order of learning.
+/// The pages to which the header of each page links, in the order of learning.
 const main_pages = [
     ["index.html", "Cascade"], ["tutorial.html", "Tutorial"], ["how_to/index.html", "How to"], ["explanation/index.html", "Why"],
     ["systems.html", "Systems"], ["museum.html", "Museum"], ["spec/index.html", "Reference"], ["live.html", "Open the page"],
@@ -33,7 +33,8 @@ function run(words, options = {}) {
 }
 
 const empty = mkdtempSync(join(tmpdir(), "cascade-site-"));
-/// Whether the engine of live.html can run the script. It has no files and no bodies, and few models have cells there.
+/// Whether the engine of live.html can run the script. The page has no files, cannot make bodies,
+/// and has the cells of few models.
 function is_live(script) {
     if (/\bmesh:|\bbody:|\bsurface: *(creature|leopard|giraffe|zebra|fish|frog|implicit)/.test(script)) return false;
     writeFileSync(join(empty, "script.cascade"), script);
@@ -41,7 +42,7 @@ function is_live(script) {
 }
 const address_of = (script) => `live.html#script=${deflateSync(script, { level: 9 }).toString("base64url")}`;
 
-/// From one page of the site to another place in it.
+/// The relative address of a place in the site, as seen from a page.
 const path_to = (page, to) => posix.relative(posix.dirname(page), to);
 const grow_link = (page, script) => `<a class="grow" href="${path_to(page, "")}${posix.dirname(page) === "." ? "" : "/"}${address_of(script)}">grow</a>`;
 
@@ -51,7 +52,8 @@ function copied(path) {
     return path;
 }
 
-/// The parts of all pages that can be found by words: [page, id of the heading, title of the page, heading, text].
+/// The parts of all pages that searches can find: [page, id of the heading, title of the page,
+/// heading, text].
 const found_parts = [];
 const text_of = (html) => unescape(html.replace(/<a class="grow".*?<\/a>/gs, " ").replace(/<[^>]*>/g, " ")).replace(/\s+/g, " ").trim();
 function note_parts(page, title, body) {
@@ -88,7 +90,7 @@ ${body}
 `);
 }
 
-/// The ids of headings, as GitHub makes them.
+/// Adds ids to headings, as GitHub does.
 function with_ids(html) {
     const seen = new Map();
     return html.replace(/<h([1-6])>(.*?)<\/h\1>/gs, (_, level, text) => {
@@ -99,7 +101,7 @@ function with_ids(html) {
     });
 }
 
-/// Links between pages; what is not on the site becomes plain text.
+/// Adapts links between pages to the site. Links to places outside of the site become plain text.
 function with_links(html, source, page) {
     return html.replace(/<a href="([^"]*)">(.*?)<\/a>/gs, (link, address, text) => {
         if (/^(https?:|#)/.test(address)) return link;
@@ -123,7 +125,7 @@ function with_scripts(html, page) {
     });
 }
 
-/// Below the picture of each system: its script, to be grown.
+/// Adds a link below the picture of each system, with which its script grows.
 function with_systems(html, page) {
     return html.replace(/<p><img [^>]*alt="(\w+)"[^>]*><\/p>/g, (picture, name) => {
         const { status, stdout } = run([program, "new", name]);
@@ -131,7 +133,7 @@ function with_systems(html, page) {
     });
 }
 
-/// Below the name of each exhibit of the museum: its script, to be grown.
+/// Adds a link below the name of each exhibit of the museum, with which its script grows.
 function with_exhibits(html, page) {
     return html.replace(/<td><code>(\w+)<\/code>/g, (name_cell, name) => {
         const script = read(`examples/museum/${name}.cascade`);
@@ -145,18 +147,18 @@ for (const [source, page] of pages) {
     let html = with_scripts(with_links(with_ids(stdout), source, page), page);
     if (page === "systems.html") html = with_systems(html, page);
     if (page === "museum.html") html = with_exhibits(html, page);
-    // What is wider than the screen can be scrolled by keys.
+    // Code and tables that are wider than the screen can be scrolled with keys.
     html = with_pictures(html, source, page).replaceAll("<pre>", '<pre tabindex="0">').replaceAll("<table>", '<div class="table" tabindex="0"><table>').replaceAll("</table>", "</table></div>");
     write_page(page, `${unescape(html.match(/<h1[^>]*>(.*?)<\/h1>/s)[1].replace(/<[^>]*>/g, ""))} · Cascade`, html);
 }
 
-/// The pictures of examples, each of which grows if the engine can grow it.
+/// The pictures of examples. A click on a picture grows the example, if the engine can run it.
 const gallery_of = (folder) => list(folder, ".cascade").filter((name) => existsSync(join(root, folder, name.replace(/cascade$/, "png")))).map((name) => {
     const script = read(`${folder}/${name}`), title = name.replace(".cascade", "").replaceAll("_", " ");
     const picture = `<img loading="lazy" src="${copied(`${folder}/${name.replace(/cascade$/, "png")}`)}" alt="">${title}`;
     return `<li>${is_live(script) ? `<a href="${address_of(script)}">${picture}</a>` : picture}</li>`;
 }).join("\n");
-/// Exercises by their titles.
+/// The exercises, by their titles.
 const lessons = list("examples/lessons", ".cascade").map((name) => {
     const script = read(`examples/lessons/${name}`), [, title] = /^# exercise: (.*)$/m.exec(script);
     return `<a class="grow" href="${address_of(script)}">${escape(title)}</a>`;

@@ -6,12 +6,12 @@ export interface Values { columns: number; rows: number; numbers: Float32Array }
 
 const beyond = 3;  ///< How many cells beyond a side the curves read.
 
-/// The cell whose value is used for a position beyond a side: a cell at the opposite side if the plane repeats, else
-/// the last cell.
+/// The cell whose value is used for a position beyond a side: a cell at the opposite side if the
+/// plane repeats, otherwise the nearest cell of the plane.
 export const inside = (place: number, count: number, repeats: boolean) =>
     repeats ? (place % count + count) % count : Math.min(Math.max(place, 0), count - 1);
 
-/// The slope at the middle of five cells: the change from one cell to the next.
+/// The slope at the middle one of five cells, as the change from one cell to the next.
 function slope_in(a: number, b: number, c: number, d: number, e: number): number {
     const before = c - b, after = d - c, bend = after - before, left = before - (b - a), right = e - d - after;
     let least = bend, largest = bend;
@@ -24,8 +24,9 @@ function slope_in(a: number, b: number, c: number, d: number, e: number): number
     return slope > most ? most : slope < -most ? -most : slope;
 }
 
-/// Divides a cell into `scale` parts. For the centre of each part: the last cell whose centre is before it, relative to
-/// the divided cell, and the weights of the rise to the next cell and of the slopes in both cells.
+/// Divides a cell into `scale` parts. Returns for the centre of each part the last cell whose
+/// centre is before it, counted from the divided cell, and the weights of the rise to the next cell
+/// and of the slopes in both cells.
 function parts_of_cell(scale: number) {
     return Array.from({ length: scale }, (_, k) => {
         const place = (k + 0.5) / scale - 0.5, before = Math.floor(place), part = place - before, rest = 1 - part;
@@ -73,8 +74,9 @@ function are_plain(numbers: Float32Array): boolean {
     return true;
 }
 
-/// A plane of finite numbers. Cells without a value (NaN) get the mean of their neighbours, as far as curves read them.
-/// `there` is 1 in cells with a value and 0 in the others; undefined if all cells have one.
+/// A plane of finite numbers. Cells without a value (NaN) get the mean of their neighbours, as far
+/// as curves read them. `there` is 1 in cells with a value and 0 in others. It is undefined if all
+/// cells have a value.
 export function filled({ columns, rows, numbers }: Values, [across, down]: [boolean, boolean]): { values: Values; there?: Values } {
     if (are_plain(numbers)) return { values: { columns, rows, numbers } };
     let found = numbers.map((number) => Number.isNaN(number) ? NaN : Math.min(Math.max(number, -largest), largest));

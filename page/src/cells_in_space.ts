@@ -1,4 +1,4 @@
-// The positions of cells that crawl in space, and the floor below them if there is no model.
+// The positions in space of cells that crawl, and the floor below the cells if there is no model.
 import { type Vector, add, cross, dot } from "./camera";
 import type { Cells, Surface } from "./connection";
 
@@ -8,7 +8,8 @@ const place_at = ({ placements }: Cells, k: number): Vector => {
     return [placements[at], placements[at + 1], placements[at + 2]];
 };
 
-/// The positions in space of the outermost vertices of each copy. If there are many copies, fewer vertices of each.
+/// The positions in space of each copy's outermost vertices in 26 directions, or in 6 directions if
+/// there are many copies.
 export function corners_of(cells: Cells): Float32Array {
     const sides = [-1, 0, 1], { positions, triangles, placements } = cells;
     const directions = sides.flatMap((x) => sides.flatMap((y) => sides.map((z): Vector => [x, y, z])))
@@ -43,20 +44,20 @@ export function nearest_cell(cells: Cells, [x, y, z]: Vector): number {
     return found;
 }
 
-/// Half of the width of a cell; 0 if the cell is not drawn.
+/// Half of the width of a cell, or 0 if the cell is not drawn.
 export function half_width(cells: Cells, cell: number): number {
     const k = cells.cells.indexOf(cell);
     return k < 0 ? 0 : cells.placements[numbers_of_placement * k + 7];
 }
 
-/// The position of a cell; undefined if the cell is not drawn.
+/// The position of a cell, or undefined if the cell is not drawn.
 export function place_of_cell(cells: Cells, cell: number): Vector | undefined {
     const k = cells.cells.indexOf(cell);
     return k < 0 ? undefined : place_at(cells, k);
 }
 
-/// The floor below cells on a plane or in a box of space. The corners of the box are only used to frame the picture. y
-/// of scripts points towards the viewer.
+/// The floor below cells on a plane or in a box of space. The corners of the box are only used to
+/// frame the picture. The y axis of scripts points towards the viewer.
 export function floor_of([wide, deep, high]: Vector): Surface {
     const corners: Vector[] = [[0, 0, 0], [0, 0, deep], [wide, 0, deep], [wide, 0, 0]];
     // The floor is slightly above the ground, on which shadows fall.

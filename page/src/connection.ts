@@ -17,21 +17,26 @@ export interface Snapshot {
     steps_per_second: number; can_undo: boolean; can_redo: boolean; failure: string; remarks: string[];
     columns: number; rows: number; low: number; high: number; planes: Float32Array[];
     repeats: [boolean, boolean];  ///< Whether the planes repeat along x, and along y.
-    surface: number;    ///< The number of the surface on which the cells lie; 0 for none.
+    /// The number of the surface on which the cells lie, or 0 if there is none.
+    surface: number;
     cell?: [number, number];  ///< The lengths of a cell along columns and rows, if they differ.
-    is_model: boolean;  ///< The cells are those of a model, and have no columns and rows.
+    is_model: boolean;  ///< Whether the cells are those of a model, without columns and rows.
     cells?: Cells;  ///< Cells that crawl. Planes then have one row with a value for each cell.
-    slice?: { axis: "x" | "y" | "z"; number: number; sides: [number, number, number] };  ///< Of a volume.
+    /// The visible slice of a volume.
+    slice?: { axis: "x" | "y" | "z"; number: number; sides: [number, number, number] };
 }
 
 /// Cells that crawl: a few meshes, and the placements of their copies.
 export interface Cells {
     count: number; skin: [number, number, number];
-    is_flat: boolean;                   ///< If true, z of scripts points upwards, and y towards the viewer.
-    extent?: [number, number, number];  ///< The size of the plane or box of the cells; undefined on a surface.
-    positions: Float32Array; normals: Float32Array; shades: Float32Array; triangles: Uint32Array;  ///< All meshes together.
-    /// Mesh k has the triangles from triangle_ends[k − 1] to triangle_ends[k], and the copies from ends[k − 1] to
-    /// ends[k].
+    /// Whether z of scripts points upwards, and y towards the viewer.
+    is_flat: boolean;
+    /// The size of the plane or box of the cells. Undefined on a surface.
+    extent?: [number, number, number];
+    /// The vertices and triangles of all meshes.
+    positions: Float32Array; normals: Float32Array; shades: Float32Array; triangles: Uint32Array;
+    /// Mesh k has the triangles from triangle_ends[k − 1] up to, but not including,
+    /// triangle_ends[k], and the copies from ends[k − 1] up to, but not including, ends[k].
     triangle_ends: Uint32Array; ends: Uint32Array;
     cells: Uint32Array;        ///< For each copy, the index of its cell in the planes.
     placements: Float32Array;  ///< Ten numbers for each copy: position, quaternion x, y, z, w, factors along the axes.
@@ -43,7 +48,7 @@ export interface Surface {
     positions: Float32Array; normals: Float32Array;  ///< Three numbers for each vertex.
     places?: Float32Array;  ///< x and y of each vertex when the surface is shown as a plane.
     triangles: Uint32Array;
-    ends: Uint32Array;      ///< Vertex v has the shares from ends[v − 1] to ends[v].
+    ends: Uint32Array;      ///< Vertex v has the shares from ends[v − 1] to ends[v] − 1.
     /// Share k has the cell cells[2 k] and the weight weights[2 k + 1].
     cells: Uint32Array; weights: Float32Array;
 }
@@ -54,8 +59,10 @@ export interface Listener {
     script(script: Script): void;
     snapshot(snapshot: Snapshot): void;
     surface(surface: Surface): void;
-    engine(name: string, about: string): void;  ///< The engine of a page without the program.
-    progress(doing: string, part?: number): void;  ///< A long task; empty after the task.
+    /// Tells which engine takes the steps of a page without the program.
+    engine(name: string, about: string): void;
+    /// Tells the engine's long task, or "" after the task.
+    progress(doing: string, part?: number): void;
     lost(reason: string): void;
     refused(why: Message): void;  ///< An error without a request, or about one that could not be read.
 }
@@ -101,7 +108,7 @@ function read_frame(bytes: ArrayBuffer): Snapshot | Surface | Required<SavedFile
     };
 }
 
-const largest_message = 1 << 20;  ///< In bytes; the engine refuses larger messages.
+const largest_message = 1 << 20;  ///< In bytes. The engine refuses larger messages.
 
 export class Connection {
     readonly token = EngineLine.is_carried ? "" : take_token();
@@ -114,8 +121,8 @@ export class Connection {
 
     constructor(private readonly listener: Listener) { this.open(); }
 
-    /// Sends a request. The answer comes when it has taken effect or was refused; spec/page.md lists the fields of
-    /// answers.
+    /// Sends a request. The answer comes when the request has taken effect or was refused.
+    /// spec/page.md lists the fields of answers.
     ask<Reply = object>(what: string, fields: Record<string, unknown> = {}): Promise<Answer & Reply> {
         const id = ++this.last_id;
         // Lone surrogates, which a string may contain, are not allowed in JSON.

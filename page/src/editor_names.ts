@@ -15,7 +15,8 @@ export interface NameService {
 }
 
 const milliseconds_of_rest = 250;
-const longest = 1 << 16;  ///< In UTF-16 units: uses are not marked in longer texts, which take long to check.
+/// In UTF-16 units. Uses are not marked in longer texts, because checking these takes long.
+const longest = 1 << 16;
 
 const offset = (doc: Text, [line, column]: Place) => doc.line(line).from + column;
 const asked_at = (state: EditorState, at: number): [string, number] => [state.sliceDoc(), new TextEncoder().encode(state.sliceDoc(0, at)).length];

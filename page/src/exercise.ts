@@ -2,7 +2,7 @@
 
 export interface Goal { feature: string; low: number; high: number }
 
-/// Texts by language. The text of "" is used for all languages that have none.
+/// Texts by language. The text of "" is used for all languages without a text.
 export type Texts = Record<string, string>;
 export interface Exercise { title: Texts; task: Texts; hint: Texts; target: string; goals: Goal[]; wrong: string[] }
 
@@ -29,8 +29,8 @@ function lines_of(lines: string[]): [number, number] | undefined {
     return [first, length < 0 ? lines.length : first + length];
 }
 
-/// Undefined if the script has no exercise. A line that has no word before a ':' continues the text of the line before
-/// it.
+/// The exercise of a script, or undefined if there is none. A line without a word before a ':'
+/// continues the text of the line before it.
 export function exercise_of(script: string): Exercise | undefined {
     const lines = script.split("\n"), range = lines_of(lines);
     if (!range) return undefined;

@@ -1,6 +1,6 @@
 // Pointers, fingers and the wheel on a view: they paint, or move the picture.
 
-const finger_tremble = 8;    ///< In pixels: a finger that has moved less may be the first of two.
+const finger_tremble = 8;    ///< In pixels. A finger that has moved less may be the first of two.
 
 export type Held = "brush" | "plane" | "angle";
 

@@ -40,7 +40,7 @@ export class Lesson {
         new MutationObserver(() => this.write()).observe(document.documentElement, { attributeFilter: ["lang"] });
     }
 
-    /// The script that is run now.
+    /// Sets the script that is run now.
     set script(text: string) {
         if (text === this.read) return;
         this.read = text;

@@ -105,7 +105,7 @@ export class Library {
         this.told.textContent = "";
     }
 
-    /// Shows a system and the most similar other ones.
+    /// Shows a system and the systems that are most similar to it.
     private show_alike(to: number) {
         const alike = likeness(this.entries.map(({ title, about, name = "" }) => `${title} ${about} ${name.replaceAll("_", " ")}`), to);
         const nearest = alike.map((_, k) => k).filter((k) => k !== to).sort((one, other) => alike[other] - alike[one]).slice(0, most_alike);

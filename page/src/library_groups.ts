@@ -1,7 +1,7 @@
 // Groups of the library and similarity of its systems, by the words of their descriptions.
 
-/// A system belongs to the group whose words occur most often in its description. If several groups are equal, it
-/// belongs to the first of them.
+/// The groups, and words that are typical of their systems. A system belongs to the group whose
+/// words occur most often in its description, or to the first of several such groups.
 const groups: [name: string, words: string][] = [
     ["Spots and stripes", "turing spot spots stripe stripes labyrinth labyrinths dot dots hexagon hexagons skin skins digit digits phyllotaxis nanocoating brusselator schnakenberg swift superlattice holes squares worms mitosis inhibition inhibitor coats"],
     ["Waves and spirals", "wave waves spiral spirals excitable heart front fronts pulse pulses clock gliders turbulence chaos glycolysis ginzburg lambda oscillations travelling epidemic"],

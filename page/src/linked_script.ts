@@ -9,7 +9,8 @@ export async function pack(text: string) {
     return (await in_base64(packed)).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");
 }
 
-/// The script in the address of the page; undefined if there is none. Throws if it cannot be read.
+/// The script in the address of the page, or undefined if there is none. Throws if it cannot be
+/// read.
 export async function script_of_address() {
     const packed = new URLSearchParams(location.hash.slice(1)).get("script");
     if (!packed) return undefined;

@@ -4,7 +4,7 @@ import { EditorState, type Extension, type Range, StateField } from "@codemirror
 import { Decoration, type DecorationSet, EditorView, WidgetType } from "@codemirror/view";
 import { locked_parts, touches } from "./exercise";
 
-/// Shown in place of the data of a picture.
+/// An ellipsis in place of the data of a picture.
 class Ellipsis extends WidgetType {
     toDOM() { return Object.assign(document.createElement("span"), { textContent: "…" }); }
 }

@@ -42,7 +42,7 @@ export class Measure {
 
     private figure(id: string) { return document.getElementById(id)!; }
     private plot(id: string, is_histogram = false) { return new Plot(this.figure(id).querySelector("div")!, is_histogram); }
-    /// Sets a caption; names of curves have the colours of the curves.
+    /// Sets a caption. Names of curves have the colours of the curves.
     private title(id: string, text: string, curves: string[] = []) {
         this.figure(id).querySelector("figcaption")!.replaceChildren(text, ...curves.map((name, k) => {
             const part = Object.assign(document.createElement("span"), { textContent: ` ${name}` });
@@ -92,7 +92,8 @@ export class Measure {
         if (this.pattern.snapshot) void this.look_at(this.pattern.snapshot);
     }
 
-    /// Called for every snapshot that is drawn. So a page that draws slowly has fewer points in the curves.
+    /// Called for every snapshot that is drawn. Therefore a page that draws slowly has fewer points
+    /// in the curves.
     async look_at(snapshot: Snapshot) {
         if (!this.panel.open || this.is_asking || !this.x.value) return;
         this.is_asking = true;
@@ -111,7 +112,7 @@ export class Measure {
         }
         this.is_asking = false;
         if (this.is_stale) return this.refresh();
-        // If the run has stopped meanwhile, the newest snapshot counts.
+        // If the run has stopped meanwhile, the newest snapshot is measured, too.
         const now = this.pattern.snapshot;
         if (now && now !== snapshot && !now.is_going_on) void this.look_at(now);
     }
@@ -147,7 +148,8 @@ export class Measure {
         this.plots.histogram.show([{ name: "cells" }], [histogram!.map((_, k) => x![0] + (k + 0.5) * width), histogram!]);
         this.figure("spectrum").hidden = !spectrum;
         if (spectrum) {
-            // After the last ring that has at least a thousandth of the largest power, nothing is shown.
+            // Rings after the last one that has at least a thousandth of the largest power are not
+            // shown.
             const least = Math.max(...spectrum.slice(1)) / 1000, last = spectrum.findLastIndex((power, k) => k > 0 && power >= least);
             const powers = spectrum.slice(1, Math.max(last + 2, 9)), rings = powers.map((_, k) => (k + 1) * ring_width!);
             const is_wave = typeof wavelength === "number";

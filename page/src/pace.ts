@@ -4,14 +4,15 @@ import type { Answer, Snapshot, Stage } from "./connection";
 import { is_row, rows_of_time } from "./time_rows";
 
 const usual_seconds = 20;  ///< The duration of all stages if the slider is in the middle.
-const longest_pause = 0.1;   ///< In seconds: after a longer pause, steps that were due are left out.
-const very_fast = 1e12;      ///< In steps a second: as fast as possible.
+/// In seconds. After a longer pause, steps that were due are left out.
+const longest_pause = 0.1;
+const very_fast = 1e12;      ///< In steps a second. It stands for as fast as possible.
 
 type Ask = (what: string, fields?: Record<string, unknown>) => Promise<Answer>;
 
 const is_over = ({ stages }: Snapshot) => stages.every((stage) => stage.has_ended);
 
-/// The number of steps of a stage, estimated if it ends by its duration.
+/// The number of steps of a stage. It is estimated if the stage ends by its duration.
 const steps_of = ({ steps, iterations, t, duration }: Stage) => duration > 0 && t > 0 ? steps * duration / t : iterations;
 
 export class Pace {
@@ -19,12 +20,14 @@ export class Pace {
     private seen?: Snapshot;
     private stages = "";
     private usual = 60;  ///< Steps a second if the slider is in the middle.
-    private is_asking = false;  ///< The page requests the steps for each frame.
+    private is_asking = false;  ///< Whether the page requests the steps for each frame.
     private is_starting = false;  ///< Whether the run has been started, but no snapshot shows this yet.
     private is_wanted = false;  ///< Whether the pattern was not paused. It may have ended.
-    private is_changed = false;  ///< A number or the pattern was changed after the last snapshot.
-    private is_lengthened = false;   ///< The last stage is being lengthened.
-    private goes_on_after?: number;  ///< Continue if a script other than this one has stages left.
+    /// Whether a number or the pattern was changed after the last snapshot.
+    private is_changed = false;
+    private is_lengthened = false;   ///< Whether the last stage is being lengthened.
+    /// If set, the run continues when a script with another number has stages left.
+    private goes_on_after?: number;
     private asked = "";      ///< The stage and step of the last request for steps.
     private due = 0;         ///< The number of steps that are due.
     private then = 0;
@@ -50,7 +53,7 @@ export class Pace {
         return last !== undefined && (!is_over(this.seen!) || last.duration > 0 || last.steps >= last.iterations);
     }
 
-    /// The steps taken in a second; 0 if unknown.
+    /// The steps taken in a second, or 0 if unknown.
     get steps_per_second() { return Math.min(this.seen?.steps_per_second ?? 0, this.is_asking ? this.rate : very_fast); }
 
     see(snapshot: Snapshot) {
@@ -98,15 +101,15 @@ export class Pace {
         this.goes_on_after = undefined;
     }
 
-    /// Called after a change of a number or the pattern: a pattern that has ended by itself continues. The next snapshot
-    /// may be the first to show the end.
+    /// Called after a change of a number or the pattern. A pattern that has ended by itself
+    /// continues. The next snapshot may be the first to show the end.
     touch() {
         this.is_changed = this.is_wanted && this.is_going_on;
         if (this.has_ended_by_itself) void this.lengthen(true);
     }
 
-    /// Called with a new text: a pattern that has ended by itself continues with the stages that the text adds. The run
-    /// may have ended without the page having seen it.
+    /// Called with a new text. A pattern that has ended by itself continues with the stages that
+    /// the text adds. The run may have ended before the page has seen it.
     async send(text: Promise<Answer>) {
         if (this.has_ended_by_itself || this.is_wanted && this.is_going_on) this.goes_on_after = this.seen!.script;
         if (!(await text).is_done) this.goes_on_after = undefined;

@@ -142,7 +142,7 @@ export class Pattern {
     redo(): void { this.change({ do: "redo" }); }
     session(): string { return this.ask({ do: "log" }).text as string; }
 
-    /// All slices of a volume along z, each of which is a snapshot.
+    /// The values of a volume, from snapshots of all its slices along z.
     private volume([width, height, depth]: [number, number, number]): Values {
         const data = new Float32Array(width * height * depth);
         for (let k = 0; k < depth; ++k) {

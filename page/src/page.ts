@@ -51,11 +51,11 @@ pattern.drawn = (shown) => {
 };
 const palette_choice = element<HTMLSelectElement>("palette");
 let palettes: Palette[] = [];
-let is_text_open = false;  ///< The text in the editor is not the session's script.
-let replaced_script: number | undefined;  ///< The script before a text whose pattern is not shown yet.
+let is_text_open = false;  ///< Whether the text in the editor is not the session's script.
+let replaced_script: number | undefined;  ///< The script that the editor's text replaced, until its pattern is shown.
 let is_drawing = false;
 let was_opened = false;
-let is_to_start = false;  ///< Whether the run is to be started at the next snapshot of a beginning.
+let is_to_start = false;  ///< Whether to start the run when a snapshot shows its beginning.
 let noticed_until = 0;
 const preparing = new Preparing();
 
@@ -171,7 +171,7 @@ async function show_new(text: string) {
     await pace.stop();
     const answer = await ask("text", { text });
     if (!answer.is_done) return;
-    // Otherwise stages and species with the old names would keep their values.
+    // Without this, stages and species with the old names would keep their values.
     await ask("restart");
     is_to_start = true;
 }

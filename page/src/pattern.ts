@@ -110,7 +110,7 @@ export class Pattern {
         return snapshot ? Math.max(...(snapshot.slice?.sides ?? [snapshot.columns, snapshot.rows])) : 1;
     }
 
-    /// The position of a pointer on the pattern; undefined beside the pattern.
+    /// The position of a pointer on the pattern, or undefined beside the pattern.
     place(event: { clientX: number; clientY: number }): Place | undefined {
         const { canvas, snapshot, longest, columns: width, rows: height } = this, box = canvas.getBoundingClientRect();
         if (!snapshot || snapshot.is_model || snapshot.cells || this.is_solid) return this.is_solid ? this.solid.place(event) : undefined;
@@ -124,8 +124,9 @@ export class Pattern {
         return { x: x / longest, y: y / longest, ...(slice && { z: z / longest }), cell };
     }
 
-    /// The number of a cell in the grid: column + width · (row + height · slice). On planes and models it is the index
-    /// in the planes of snapshots. For a volume these contain one slice only.
+    /// The number of a cell in the grid: column + width · (row + height · slice). On planes and
+    /// models it is the index in the planes of snapshots. For a volume, snapshots contain the
+    /// planes of one slice only.
     cell_in_grid(cell: number) {
         const { columns, slice } = this.snapshot!, column = cell % columns, row = Math.floor(cell / columns);
         if (!slice) return cell;
@@ -134,7 +135,7 @@ export class Pattern {
         return i + width * (j + height * k);
     }
 
-    /// The rectangle of a cell on the page; undefined if the cell is not visible.
+    /// The rectangle of a cell on the page, or undefined if the cell is not visible.
     box_of_cell(cell: number): DOMRect | undefined {
         const { canvas, snapshot, columns } = this;
         if (!snapshot || snapshot.is_model || snapshot.cells || this.is_solid) return this.is_solid ? this.solid.box_of_cell(cell) : undefined;

@@ -1,8 +1,8 @@
-// The fields of a request for a picture, with which the engine draws the picture that the page shows.
+// Builds the fields of a request for a picture, so that the engine draws what the page shows.
 import { is_held } from "./look";
 import type { Pattern } from "./pattern";
 
-const side = 960;          ///< The longest side of a picture of cells, approximately, in pixels.
+const side = 960;          ///< The approximate longest side of a picture of cells, in pixels.
 const most_enlarged = 64;
 
 /// The fields of the message `picture`, except `show` and `palette`.

@@ -50,8 +50,8 @@ export class Points {
 
     /// `tell` is called with the reason if nothing is written.
     constructor(private readonly pattern: Pattern, private readonly editor: Editor, private readonly tell: (why: string) => void) {
-        // The canvases receive the event before this object. If a finger is lifted at once, they report its press only
-        // then.
+        // The canvases receive the event before this object. If a finger is lifted at once, the
+        // canvases report its press only then.
         addEventListener("pointerup", (event) => this.end(event));
         addEventListener("pointercancel", () => this.stop());
         addEventListener("pointermove", (event) => this.start && this.show(event));
@@ -66,7 +66,7 @@ export class Points {
         document.getElementById("frame")!.toggleAttribute("data-points", this.is_waiting);
     }
 
-    /// Takes presses on the pattern while the button is pressed.
+    /// Takes presses on the pattern while positions are to be written.
     takes(event: PointerEvent, is_first: boolean): boolean {
         if (!this.is_waiting) return false;
         if (is_first) this.start = event;

@@ -3,7 +3,7 @@
 export class Preparing {
     private readonly words = document.getElementById("preparing")!;
     private doing = "";
-    private is_blank = false;  ///< The model has not been drawn yet.
+    private is_blank = false;  ///< Whether the model has not been drawn yet.
 
     /// Sets the engine's long task and the fraction that is done. `doing` is empty after the task.
     tell(doing: string, part?: number) {

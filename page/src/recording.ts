@@ -2,7 +2,8 @@
 import { download } from "./download";
 import { type ZippedFile, zip } from "./zip";
 
-const side_of_movie = 960;  ///< The longest side in pixels, approximately, because cells are enlarged by integers.
+/// The approximate longest side in pixels. It is not exact, because cells are enlarged by integers.
+const side_of_movie = 960;
 const most_frames = 3000;
 
 /// Draws a canvas enlarged, so that cells are squares of several pixels.
@@ -18,7 +19,8 @@ export class Recording {
     private frames?: Promise<ZippedFile | undefined>[];
     private last = 0;  ///< The number of the last snapshot that became a frame.
 
-    /// `changed` is called with two values: whether a movie is being recorded, and whether frames are.
+    /// `changed` is called with two values: whether a movie is being recorded, and whether frames
+    /// are being recorded.
     constructor(private readonly seen: () => HTMLCanvasElement, private readonly name: () => string, private readonly changed: (is_movie: boolean, are_frames: boolean) => void) {}
 
     private get canvas() { return this.seen(); }

@@ -7,7 +7,8 @@ import type { Pattern } from "./pattern";
 type Ask = <Reply>(what: string, fields: Record<string, unknown>) => Promise<Answer & Reply>;
 
 export class ModelSaver {
-    private is_busy = false;  ///< A file has been requested. Only one is requested at a time.
+    /// Whether a file has been requested. Only one is requested at a time.
+    private is_busy = false;
 
     constructor(private readonly pattern: Pattern, private readonly ask: Ask, private readonly tell: (words: string) => void) {}
 

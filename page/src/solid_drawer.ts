@@ -7,15 +7,16 @@ import { CellDrawer } from "./cell_drawer";
 import { hidden, shade, shadow, surface } from "./light_shaders";
 import { Program, attributes } from "./program";
 
-/// The number of directions in which the visibility of the sky is tested: usually, if drawing is slow, and per picture.
+/// The number of directions in which the visibility of the sky is tested: usually, if drawing is
+/// slow, and during one picture.
 const sky_directions = 160, few_sky_directions = 64, many_at_once = 8;
-const long = 100;  ///< In milliseconds: pictures that take longer are slow.
+const long = 100;  ///< In milliseconds. Pictures that take longer are slow.
 const shadow_side = 1024;
 const ground_side = 64;     ///< Quadrilaterals along a side of the ground.
 const ground_reach = 1.2;   ///< Half the side of the ground in diagonals of the surface.
 
-/// Computes the light for vertices: it varies slowly along a surface, and there are fewer vertices than pixels. The sun
-/// is tested only for the side that faces it.
+/// Computes the light for vertices, since the light varies slowly along a surface, and there are
+/// fewer vertices than pixels. The sun is tested only for the side that faces it.
 const vertex = `${shadow}
 in vec3 position, normal, value;
 in vec4 sky;

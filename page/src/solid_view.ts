@@ -130,7 +130,7 @@ export class SolidView implements View {
         this.look();
     }
 
-    /// The position of a pointer on the surface; undefined beside the surface.
+    /// The position of a pointer on the surface, or undefined beside the surface.
     place(event: { clientX: number; clientY: number }): Place | undefined {
         const hit = this.hit(...this.seen_at(event.clientX, event.clientY)), { surface } = this;
         if (!hit || !surface) return undefined;
@@ -158,7 +158,7 @@ export class SolidView implements View {
         return unit(hit.corners.reduce((sum, corner, c) => add(sum, [normals[3 * corner], normals[3 * corner + 1], normals[3 * corner + 2]], hit.parts[c]), [0, 0, 0] as Vector));
     }
 
-    /// The position of a cell in the window; undefined if it is on the far side.
+    /// The position of a cell in the window, or undefined if it is on the far side.
     box_of_cell(cell: number): DOMRect | undefined {
         const { surface } = this;
         if (!surface) return undefined;
@@ -176,7 +176,7 @@ export class SolidView implements View {
         return this.box_of_place(best < 0 ? undefined : [positions[3 * best], positions[3 * best + 1], positions[3 * best + 2]]);
     }
 
-    /// The position of a point in the window; undefined if it is on the far side.
+    /// The position of a point in the window, or undefined if it is on the far side.
     private box_of_place(place?: Vector): DOMRect | undefined {
         const { camera, canvas } = this;
         if (!place) return undefined;

@@ -1,5 +1,5 @@
-// The row of stages: the name, the progress and a small picture of each stage. The picture shows the last moment of the
-// stage that was seen.
+// The row of stages: the name, the progress and a small picture of each stage. The picture shows
+// the last moment of the stage that the page has shown.
 import type { Snapshot, Stage } from "./connection";
 
 const milliseconds_between_pictures = 400;

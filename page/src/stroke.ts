@@ -38,7 +38,7 @@ export class Stroke {
 
 interface Spot { clientX: number; clientY: number }
 
-/// Positions between two events of a pointer. They are so close to each other that discs leave no gaps.
+/// Adds positions between two events of a pointer, so close to each other that discs leave no gaps.
 export class Trail {
     private last?: Spot;
 

@@ -1,7 +1,7 @@
 // The picture of a grid of one row. Time runs downwards: there is a row for each snapshot of a different step.
 import type { Snapshot } from "./connection";
 
-/// The number of rows of such a picture: the number of cells, within limits.
+/// The number of rows of the picture: the number of cells, but at least 16 and at most 512.
 export const rows_of_time = ({ columns }: Snapshot) => Math.min(Math.max(columns, 16), 512);
 
 /// Whether this snapshot is of a grid of one row.

@@ -111,8 +111,8 @@ private:
         return text;
     }
 
-    /// The fraction of the map that each class covers, as text: "of the pairs, 40 % are Turing, 60
-    /// % stable".
+    /// Says which fraction of the map each class covers: "of the pairs, 40 % are Turing, 60 %
+    /// stable".
     std::string shares() const {
         std::vector<std::optional<Stability>> classes = map_->classes;
         std::sort(classes.begin(), classes.end());

@@ -65,7 +65,7 @@ Json class_of(const std::optional<Stability>& stability) {
     return stability ? Json(class_name(stability)) : Json(nullptr);
 }
 
-/// The amplitude equations at an onset. Null if they are unknown.
+/// Describes the amplitude equations at an onset. Returns null if they are unknown.
 Json amplitudes_of(const CriticalValue& change) {
     if (!change.amplitudes) return nullptr;
     const AmplitudeEquations& by = *change.amplitudes;
@@ -92,7 +92,7 @@ Json scan_as_json(const System& system, const ParameterScan& scan) {
             {"changes", changes}};
 }
 
-/// The map as rows of numbers. Each number is an index into the list of classes.
+/// Describes the map by rows of numbers. Each number is an index into the list of classes.
 Json map_as_json(const System& system, const ParameterMap& map) {
     const std::vector<std::optional<Stability>> all{std::nullopt,      Stability::stable,
                                                     Stability::turing, Stability::wave,

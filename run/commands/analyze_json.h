@@ -8,7 +8,7 @@
 
 namespace cascade {
 
-/// JSON with indentation and a line break at its end. Missing and infinite numbers are null. `map`
+/// Writes indented JSON with a line break at its end. Missing and infinite numbers are null. `map`
 /// may be null.
 std::string analysis_as_json(const analysis::StageAnalysis& analysis,
                              std::span<const analysis::ParameterScan> scans,

@@ -101,8 +101,8 @@ public:
 private:
     bool is_enough() const {
         if (measured_ >= seconds_ && batches_.size() >= least_batches) return true;
-        // The limit is longer than the requested time, because computing starting values may take
-        // longer than all steps of a stage, and a step may take longer than a batch.
+        // Computing starting values may take longer than all steps of a stage, and a step may take
+        // longer than a batch. So the limit of the real time is longer than the requested time.
         return !batches_.empty() && seconds_since(begin_) > 4 * seconds_ + 1;
     }
 
@@ -158,7 +158,8 @@ private:
     std::uint32_t k_;
     double seconds_;
     RunControl& control_;
-    RunControl watched_;  ///< Ends a batch of steps without cancelling the whole bench.
+    /// Its `cancel` ends a batch of steps without cancelling the whole bench.
+    RunControl watched_;
     std::set<std::string>& said_;
     std::int64_t last_step_ = 0;
     Clock::time_point begin_;
@@ -166,7 +167,8 @@ private:
     std::vector<double> batches_;  ///< Seconds per step.
     double measured_ = 0;
     std::int64_t steps_ = 0;
-    double cell_steps_ = 0;  ///< For crawling cells, the sum of their number over the steps.
+    /// For crawling cells, the number of cells, summed over all measured steps.
+    double cell_steps_ = 0;
 };
 
 class ScriptBench {
@@ -186,7 +188,8 @@ public:
             if (!found) return tl::unexpected(found.error());
             only = *found;
         }
-        // The steps that stages take on coarser grids before the full grid are not measured.
+        // On coarser grids, stages would take steps before the steps on the full grid. Such steps
+        // must not be measured.
         auto measured = std::make_shared<Program>(*script_.program);
         for (Stage& stage : measured->stages) stage.time.coarse = 1;
         script_.program = std::move(measured);
@@ -251,7 +254,8 @@ private:
         bench.stepping = account_.stage(k).stepping;
         bench.work = step_work(*simulation_, k);
         if (account_.stage(k).has_refused) {
-            // If the steps could not be compiled, neither can the kernels that measure the machine.
+            // If the steps could not be compiled, the kernels that measure the machine cannot be
+            // compiled, either.
             bench.is_native = false;
             return bench;
         }
@@ -289,8 +293,9 @@ private:
     RunControl& control_;
     TimeAccount account_;
     std::unique_ptr<Simulation> simulation_;
-    double compiled_ = 0;                                 ///< Seconds spent on compiling so far.
-    std::map<int, std::optional<MachineLimits>> limits_;  ///< By number of threads.
+    double compiled_ = 0;  ///< Seconds spent on compiling so far.
+    /// The limits that were measured with each number of threads.
+    std::map<int, std::optional<MachineLimits>> limits_;
     std::set<std::string> said_;
 };
 

@@ -1,6 +1,6 @@
-// Uses the roofline model (S. Williams, A. Waterman, D. Patterson, CACM 52(4), 2009): divides the
-// work of a step by the measured peak speed of the machine, for the arithmetic and for each cache
-// and memory.
+// Uses the roofline model (S. Williams, A. Waterman, D. Patterson, CACM 52(4), 2009). The work of a
+// step is divided by the measured peak speed of the machine: by the speed of its arithmetic, and by
+// the bandwidth of each cache and memory.
 #include "core/check.h"
 #include "run/commands/bench.h"
 
@@ -10,14 +10,15 @@ namespace cascade {
 
 namespace {
 
-/// The cache or memory that holds the layers of all threads together. Null if steps are not
-/// computed in tiles.
+/// Returns the cache or memory that holds the layers of all threads together. Returns null if steps
+/// are not computed in tiles.
 const MachineLimits::Memory* cache_of_tiles(const StageBench& bench) {
     const double bytes = bench.stepping.bytes_in_use * bench.threads;
     return bytes > 0 ? &bench.limits->home_of(bytes) : nullptr;
 }
 
-/// The bytes that a step of one cell moves to and from `home`. The sweeps of a tile share them.
+/// Returns the bytes that a step of one cell moves to and from `home`. Several sweeps of a tile
+/// need a single move, so the bytes are divided among the sweeps.
 double home_bytes(const StageBench& bench) {
     return bench.work.bytes / bench.stepping.sweeps_at_once;
 }

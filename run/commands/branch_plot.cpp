@@ -1,4 +1,4 @@
-// Draws the curves, the special points, and the pictures in a strip below.
+// Draws the curves, the special points, and the pictures in a strip below the diagram.
 #include "run/commands/branch_plot.h"
 
 #include "picture/axes.h"
@@ -28,7 +28,7 @@ Colour colour_of_branch(std::size_t number) {
 }
 
 AxisRange widened(double low, double high, std::string name) {
-    // Values that differ by rounding alone are one value.
+    // Values that differ only by rounding count as one value.
     const double largest = std::max(std::abs(low), std::abs(high));
     const double width = high - low > 1e-9 * largest ? high - low : largest > 0 ? largest : 1;
     return {low - 0.04 * width, high + 0.04 * width, std::move(name)};
@@ -89,8 +89,8 @@ private:
         const auto style_of = [&](const Point& point) { return point.growing.value_or(0) > 0; };
         const auto& points = branch.points;
         for (std::size_t begin = 0; begin + 1 < points.size();) {
-            // A special point belongs to the curves on both of its sides, so the point after it
-            // decides whether the next curve is dashed.
+            // A special point belongs to the curves on both of its sides, so it does not say
+            // whether the states of the next curve are stable. The point after it does.
             const bool is_dashed =
                 style_of(points[begin + (points[begin].kind != PointKind::regular)]);
             std::vector<double> across{points[begin].place.parameter}, up{value(points[begin])};
@@ -145,7 +145,7 @@ private:
         entry("stable", line(false));
     }
 
-    /// The values of the first species.
+    /// Returns the values of the first species.
     continuation::Values first_of(const Point& point) const {
         const auto count = static_cast<Eigen::Index>(text_.table.species().size());
         return point.place.state(Eigen::seq(0, Eigen::last, count)).array();

@@ -1,4 +1,4 @@
-// The smaller cells belong to a second simulation, for which the same script is loaded again.
+// The smaller cells belong to a second simulation of the same script, which is loaded again for it.
 #include "run/commands/detailed_run.h"
 
 #include "run/commands/run_checks.h"
@@ -13,7 +13,7 @@ namespace cascade {
 
 namespace {
 
-/// The first error of the script with smaller cells, worded as an error of the option --detail.
+/// Rewords the first error of the script with smaller cells as an error of the option --detail.
 Failure refusal(Script& script, const Script& finer, int detail) {
     const std::vector<Diagnostic> all = finer.diagnostics.sorted();
     const auto error = std::find_if(all.begin(), all.end(), [](const Diagnostic& each) {
@@ -26,8 +26,8 @@ Failure refusal(Script& script, const Script& finer, int detail) {
     return {"the request does not fit the script", ""};
 }
 
-/// The memory that remains below `limit` for the smaller cells, while the run's own cells use
-/// `used` bytes.
+/// Returns the part of `limit` that is left for the smaller cells while the run's own cells use
+/// `used` bytes. 0 means that memory is not limited.
 std::uint64_t memory_left(std::uint64_t limit, double used) {
     if (limit == 0) return 0;
     return static_cast<std::uint64_t>(std::max(1.0, static_cast<double>(limit) - used));
@@ -54,7 +54,7 @@ Result<std::unique_ptr<DetailedRun>> DetailedRun::create(Script& script, const R
     std::unique_ptr<DetailedRun> made(new DetailedRun(script.detailed(detail)));
     Script& finer = made->script_;
     if (!finer.program) return tl::unexpected(refusal(script, finer, detail));
-    finer.diagnostics = {};  // The same messages were printed when the script was first loaded.
+    finer.diagnostics = {};  // The messages in it were printed when the script was first loaded.
 
     SimulationOptions options = request.simulation;
     options.memory_limit = memory_left(options.memory_limit, coarse.domain().memory);

@@ -1,5 +1,5 @@
-// The option `--detail` carries the end of a run to smaller cells of the same domain, in which the
-// last stage then settles.
+// The option `--detail` transfers the pattern at the end of a run to smaller cells of the same
+// domain. The last stage then settles in these cells.
 //
 // The run itself, its log and the saved run use the script's own cells. Pictures, models and all
 // other outputs show the smaller cells.
@@ -17,14 +17,14 @@ namespace cascade {
 
 class DetailedRun {
 public:
-    /// Makes the smaller cells, and checks before the first step whether anything must be refused.
-    /// `coarse` is a simulation of the script. Also fails if `control` cancels. Errors are added to
-    /// `script.diagnostics`. `script` must outlive the result.
+    /// Makes the smaller cells. Fails if something prevents them, so that a run is refused before
+    /// its first step. `coarse` is a simulation of the script. Also fails if `control` cancels.
+    /// Errors are added to `script.diagnostics`. `script` must outlive the result.
     static Result<std::unique_ptr<DetailedRun>> create(Script& script, const RunRequest& request,
                                                        const Simulation& coarse,
                                                        RunControl& control);
 
-    /// Carries the state of `coarse`, whose stages have ended, to the smaller cells, and lets the
+    /// Transfers the state of `coarse`, whose stages have ended, to the smaller cells, and lets the
     /// last stage settle there.
     Result<StageEnd> settle(const Simulation& coarse, RunControl& control);
 

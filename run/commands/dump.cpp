@@ -1,5 +1,5 @@
-// Calls, for each kind of dump, the function that prints it. The function is in the folder of the
-// printed data.
+// Calls the function that prints the requested kind of dump. Each function is in the folder of the
+// data that it prints.
 #include "run/commands/dump.h"
 
 #include "ir/cell_kernel.h"
@@ -34,7 +34,7 @@ std::string dump_tokens(const Script& script) {
     return print_tokens(lex(0, script.sources, already_reported), script.sources);
 }
 
-/// The words ", pass 2 of 3". Empty if the plan has a single pass.
+/// Returns the words ", pass 2 of 3", or an empty string if the plan has a single pass.
 std::string pass_words(const StepPlan& plan, std::size_t pass) {
     if (plan.passes.size() == 1) return "";
     return fmt::format(", pass {} of {}", pass + 1, plan.passes.size());
@@ -59,7 +59,7 @@ std::string dump_ir(const Program& program) {
     return text;
 }
 
-/// A dimensionless group in TeX: a fraction of powers.
+/// Writes a dimensionless group in TeX as a fraction of powers.
 std::string group_in_tex(const DimensionlessGroup& group) {
     const Symbols symbols{Notation::tex, true, {}, {}};
     std::string above, below;
@@ -74,8 +74,9 @@ std::string group_in_tex(const DimensionlessGroup& group) {
     return below.empty() ? above : fmt::format("\\frac{{{}}}{{{}}}", above, below);
 }
 
-/// A sentence with the dimensionless groups of the first stage of a system. If units are missing, a
-/// comment that says which values have none. Empty if there is nothing to say.
+/// Writes a sentence with the dimensionless groups of the first stage of a system. If units are
+/// missing, writes a comment that names the values without a unit. Returns an empty string if no
+/// stage uses the system or there are no groups.
 std::string groups_in_tex(const Script& script, const ProgramUnits& units, SystemId system) {
     const Program& program = *script.program;
     const auto stage = std::ranges::find(program.stages, system, &Stage::system);
@@ -94,8 +95,8 @@ std::string groups_in_tex(const Script& script, const ProgramUnits& units, Syste
     return text.empty() ? "" : fmt::format("Dimensionless groups: {}.\n", text);
 }
 
-/// The equations of the systems that stages use. If the script has no stages, the equations of all
-/// its systems.
+/// Writes the equations of the systems that stages use. If the script has no stages, writes the
+/// equations of all systems that the script defines.
 std::string dump_equations(const Script& script, Notation notation) {
     const Program& program = *script.program;
     IdVector<SystemId, bool> shown(program.systems.size(), false);

@@ -10,7 +10,7 @@
 
 namespace cascade {
 
-/// The kinds of dumps: tokens, ast, equations, tex, program, graph, plan, ir, llvm, asm.
+/// Returns the kinds of dumps: tokens, ast, equations, tex, program, graph, plan, ir, llvm, asm.
 std::span<const std::string_view> dump_kinds();
 
 /// Dumps a loaded script. If the script has errors, only the kinds `tokens` and `ast` work.

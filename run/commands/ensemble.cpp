@@ -40,9 +40,11 @@ Statistics statistics_in(const Ensemble& ensemble, std::string_view number, Swee
     return statistics_of(values);
 }
 
-/// A curve: the statistics of a number at each position across, from left to right.
+/// A curve of a number: the statistics of the number at each position along the horizontal axis,
+/// from left to right.
 struct Curve {
-    std::string name;  ///< The values of the remaining names, such as "kill = 0.06".
+    /// The values of the names other than the name across, such as "kill = 0.06".
+    std::string name;
     std::vector<std::pair<double, Statistics>> points;
 };
 
@@ -68,7 +70,7 @@ std::vector<Curve> curves_of(std::string_view number, SweepResults results,
     return curves;
 }
 
-/// The range of all finite numbers, with a margin.
+/// Returns the range of all finite numbers, with a margin.
 AxisRange range_over(const std::vector<double>& numbers, std::string name) {
     double low = none, high = none;
     for (const double number : numbers) {

@@ -19,10 +19,11 @@ namespace cascade {
 /// The results of a sweep, in the order of its runs. Missing results are empty.
 using SweepResults = std::span<const std::optional<SweepResult>>;
 
-/// The numbers that a sweep measures in each run: the features and, if a result counts crawling
-/// cells, `cells`, `births` and `deaths`.
+/// Returns the names of the numbers that a sweep measures in each run: the features and, if a
+/// result counts crawling cells, `cells`, `births` and `deaths`.
 std::vector<std::string> measured_names(SweepResults results);
-/// A number of a result by its name. NaN if the result is missing, or does not have the number.
+/// Returns the number of a result that has this name, or NaN if the result is missing or has no
+/// such number.
 double measured_number(const std::optional<SweepResult>& result, std::string_view name);
 
 /// Whether the seed is varied and has several values.

@@ -1,5 +1,5 @@
-// Adds every frame to every film. The colours of GIF films are chosen from frames at equal
-// distances.
+// Adds every frame to every film. The colours of GIF films are chosen from a few frames at equal
+// distances in time.
 #include "run/commands/film_crew.h"
 
 #include "core/enough_memory.h"
@@ -16,8 +16,8 @@ namespace {
 constexpr double usual_rate = 10;  // Frames per second.
 constexpr std::size_t most_table_frames = 6;
 
-/// At most `most` of the numbers 0 … count − 1, at equal distances, including the first and the
-/// last.
+/// Returns at most `most` of the numbers 0 … count − 1, at equal distances and including the first
+/// and the last.
 std::vector<std::size_t> evenly(std::size_t count, std::size_t most) {
     const std::size_t taken = std::min(count, most);
     std::vector<std::size_t> numbers;

@@ -24,22 +24,23 @@ struct FilmPlan {
     double frames_per_second = 10;
 };
 
-/// Plans a film of `count` frames. Leaves out frames at equal distances if there are more than
-/// `most`, or more per second than players can show in the requested duration. The first and the
-/// last frame always remain.
+/// Plans a film of `count` frames. If there are more than `most`, or more than players can show in
+/// the requested duration, leaves out frames at equal distances. The first and the last frame are
+/// always shown.
 FilmPlan film_plan(const FilmRequest& request, std::size_t count, bool has_gif,
                    std::size_t most = std::numeric_limits<std::size_t>::max());
 
 /// Writes all films. If one fails, the others are still written.
 class FilmCrew {
 public:
-    /// Draws frame `number` of the plan.
+    /// A function that draws frame `number` of the plan.
     using Draw = std::function<Result<FilmFrame>(std::size_t number)>;
 
     FilmCrew(std::vector<std::filesystem::path> films, FilmSettings settings);
 
     /// Begins all films. Must be called before the first frame is added. The colours of GIF films
-    /// are chosen from a sample of frames, which `draw` draws. Fails if no film can be begun.
+    /// are chosen from some of the frames, which `draw` draws before the first frame is added.
+    /// Fails if no film can be begun.
     Result<void> begin(const FilmPlan& plan, const Draw& draw);
     /// Adds a frame to all films. Fails if every film has failed.
     Result<void> add(const FilmFrame& frame);
@@ -47,7 +48,7 @@ public:
     /// that were written.
     std::vector<std::filesystem::path> finish();
 
-    /// Frame `number` of the plan, if begin() has drawn it. Otherwise null.
+    /// Returns frame `number` of the plan if begin() has drawn it, and null otherwise.
     const FilmFrame* drawn(std::size_t number) const;
     bool has_gif() const;
     std::size_t frames() const { return frames_; }
@@ -71,7 +72,7 @@ private:
 };
 
 /// Draws the planned frames of a recording and adds them to the films, until `stop` is set. Calls
-/// `say` with the number of each frame in the films, from 1.
+/// `say` for each frame with its number in the films, counted from 1.
 Result<void> film_recorded(FilmCrew& crew, FrameRecorder& frames, Painter& painter,
                            const FilmPlan& plan, int threads, const std::atomic<bool>& stop,
                            const std::function<void(std::size_t number)>& say);

@@ -11,9 +11,9 @@
 
 namespace cascade {
 
-/// The parameter with this name, such as "feed", in a stage. The name of the stage or its system
-/// may precede the parameter's name. Fails if there is no such parameter, or if its value differs
-/// from cell to cell.
+/// Returns the parameter with this name, such as "feed", in a stage. The name of the stage or of
+/// its system may precede the parameter's name. Fails if there is no such parameter, or if its
+/// value differs from cell to cell.
 Result<ItemId> find_parameter(const Program& program, std::uint32_t stage, std::string_view name);
 
 /// The unit of numbers for this parameter, such as the ends of a range: the unit of the value that

@@ -20,8 +20,8 @@ namespace cascade::continuation {
 
 namespace {
 
-/// If motions of the pattern must balance more than this fraction of the rates, the pattern cannot
-/// move freely, because the cells hold it. The limit is higher on a model, whose unevenly spread
+/// The largest drift (Corrector::Solved) of a pattern that can move freely. If the drift is larger,
+/// the cells hold the pattern in its place. The limit is higher on a model, whose unevenly spread
 /// cells hold each pattern weakly.
 constexpr double most_drift = 1e-7, most_drift_on_model = 0.01;
 
@@ -34,7 +34,7 @@ public:
 
 private:
     Result<void> find_what_varies();
-    /// The program as it runs.
+    /// The program that runs, in which the lengths of stages with a size have been scaled.
     const Program& program() const { return *simulation_->domain().program; }
     Result<void> run_stages();
     Result<SteadyProblem> problem_with(const ConstantValues& constants) const;
@@ -55,11 +55,11 @@ private:
     RunControl& control_;
     std::uint32_t stage_ = 0;
     ItemId varied_;
-    double unit_ = 1;    ///< See unit_factor().
-    VariedRange range_;  ///< In the script's units.
+    double unit_ = 1;    ///< The factor from the script's unit of the parameter, see unit_factor().
+    VariedRange range_;  ///< In the unit that the script uses for the parameter.
     std::unique_ptr<Simulation> simulation_;
     SimulationOptions options_;
-    Vector areas_;  ///< Of the cells.
+    Vector areas_;  ///< The areas of the cells.
 };
 
 Result<void> BranchRun::find_what_varies() {
@@ -102,7 +102,8 @@ Result<void> BranchRun::run_stages() {
     auto simulation = Simulation::create(script_, options_);
     if (!simulation) return tl::unexpected(simulation.error());
     simulation_ = *std::move(simulation);
-    // Any numbers for the constants suffice to find, before the run, what is not supported.
+    // The run will give the constants. Before the run, any numbers for them are enough to find out
+    // what is not supported.
     const auto trial = problem_with([](const Formula&) { return std::vector{1.0}; });
     if (!trial) return tl::unexpected(trial.error());
     for (std::uint32_t k = 0; k <= stage_; ++k) {
@@ -134,7 +135,7 @@ Scales BranchRun::scales_of(const Vector& state) const {
     for (Index k = 0; k < state.size(); ++k) squares[k % count] += state[k] * state[k];
     squares *= static_cast<double>(count) / static_cast<double>(state.size());
     const double largest = squares.maxCoeff();
-    // Values that are all near 0 give no scale.
+    // If all values are near 0, they cannot serve as a scale.
     if (largest < 1e-12) squares.setOnes();
     squares = squares.cwiseMax(0.0025 * largest);
     Scales scales{Vector(state.size()), 0};
@@ -197,7 +198,7 @@ Result<std::vector<Branch>> BranchRun::follow() {
     return branches;
 }
 
-/// Saves a state as a run that has taken no step.
+/// Saves a state like a run that has taken no step.
 Result<void> BranchRun::save(const Point& point, const std::string& name) {
     Overrides overrides = script_.overrides;
     overrides.sets.push_back(fmt::format("{}={:.17g}{}{}", range_.name,

@@ -17,16 +17,21 @@ namespace cascade {
 struct FollowRequest {
     /// The name of a stage, or its number, counted from 1. Empty: the last stage.
     std::string stage;
-    std::optional<VariedRange> varied;  ///< Must be given.
-    bool from_flat = false;  ///< Whether the first state is flat, and not the end of the run.
-    double step = 0.05;      ///< The longest step, as a fraction of the range and of usual values.
-    std::size_t points = 400;  ///< The most points on each side of a branch's first point.
-    std::size_t branches = 1;  ///< The most branches.
-    std::size_t pictures = 6;  ///< The most pictures of states below the diagram.
+    std::optional<VariedRange> varied;  ///< The parameter to vary, with its range. Must be given.
+    /// Whether to begin at a flat state. If not, the end of the run is the beginning.
+    bool from_flat = false;
+    /// The longest step along a branch, as a fraction of the range and of usual values.
+    double step = 0.05;
+    /// The largest number of points on each side of a branch's first point.
+    std::size_t points = 400;
+    std::size_t branches = 1;  ///< The largest number of branches.
+    std::size_t pictures = 6;  ///< The largest number of pictures of states below the diagram.
     std::string up;  ///< The number on the vertical axis. Empty: the norm of the first species.
-    /// Tables (.csv) and diagrams. If empty, SCRIPT_branches.csv and SCRIPT_branches.svg.
+    /// The files to write: tables (.csv) and diagrams. If empty, SCRIPT_branches.csv and
+    /// SCRIPT_branches.svg.
     std::vector<std::filesystem::path> outputs;
-    std::filesystem::path save;  ///< The folder in which states are saved as runs. Empty: none.
+    /// The folder in which states are saved as runs. Empty: no states are saved.
+    std::filesystem::path save;
     SimulationOptions simulation;
 };
 
@@ -34,8 +39,8 @@ struct FollowRequest {
 bool is_branches_output(const std::filesystem::path& path);
 
 struct FollowReport {
-    std::string text;  ///< A line for each branch and each special point.
-    std::string json;  ///< The branches with all points, a JSON array.
+    std::string text;  ///< Describes each branch and each special point in a line.
+    std::string json;  ///< All points of the branches, as a JSON array.
     std::vector<std::filesystem::path> written;
 };
 

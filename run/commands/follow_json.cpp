@@ -1,4 +1,4 @@
-// Branches as JSON, for the answer of --json.
+// Writes branches as JSON for the answer of --json.
 #include "run/commands/follow_table.h"
 
 #include <fmt/format.h>

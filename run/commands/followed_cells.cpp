@@ -1,4 +1,4 @@
-// Reads and writes fields position by position.
+// Reads and writes fields one position of the grid after the other.
 #include "run/commands/followed_cells.h"
 
 #include "core/check.h"
@@ -11,7 +11,8 @@ namespace {
 using continuation::DomainCells;
 using continuation::Vector;
 
-/// Calls a function with the column, row and slice of each position, x fastest.
+/// Calls a function with the column, row and slice of each position of the grid. The column changes
+/// fastest.
 void for_each_position(const Grid& grid, const auto& use) {
     for (std::int64_t k = 0; k < grid.depth; ++k) {
         for (std::int64_t j = 0; j < grid.height; ++j) {
@@ -41,7 +42,8 @@ std::vector<double> metric_plane(const SimulationDomain& domain, MetricPlane pla
     return values_of((*planes)[static_cast<std::size_t>(plane)], domain.grid);
 }
 
-/// Whether each position is a cell of the domain. Empty: all are.
+/// Says for each position of the grid whether it is a cell of the domain. Returns an empty list if
+/// all positions are.
 std::vector<bool> inside_of(const SimulationDomain& domain) {
     const Mask* const mask = domain.model  ? &domain.model->cells->spread().inside
                              : domain.mask ? &domain.mask->inside
@@ -53,8 +55,8 @@ std::vector<bool> inside_of(const SimulationDomain& domain) {
     return inside;
 }
 
-/// The rotations that map a sphere or a torus to itself, about axes through the middle of its box.
-/// Each is given by the components of its velocity in all cells.
+/// Returns the rotations that map a sphere or a torus to itself, about axes through the middle of
+/// its box. Each rotation is given by the three components of its velocity in all cells.
 std::vector<std::array<std::vector<double>, 3>> turns_of(const SimulationDomain& domain) {
     const ModelShape shape = domain.program->domain.model->shape;
     std::vector<std::size_t> axes;
@@ -140,7 +142,7 @@ void set_followed_state(Simulation& simulation, std::uint32_t stage, const Vecto
                     last = state[from];
                     from += static_cast<Eigen::Index>(count);
                 }
-                // The padding of a model's last row repeats the last cell.
+                // In the padding of a model's last row, the last cell is repeated.
                 if (is_cell || domain.model) changed.species()[s].at<double>(i, j, k) = last;
             });
         }

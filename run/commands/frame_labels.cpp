@@ -1,4 +1,4 @@
-// Prints integers with all digits, and other numbers with four digits.
+// Shows integers with all digits, and other numbers with four digits.
 #include "run/commands/frame_labels.h"
 
 #include <fmt/format.h>

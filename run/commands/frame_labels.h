@@ -11,15 +11,15 @@
 
 namespace cascade {
 
-/// The words of `--label`: "stage" for the name of the stage, and expressions or features as in
-/// `--log`.
+/// Interprets the words of `--label`: "stage" stands for the name of the stage, and all other words
+/// are expressions or features as in `--log`.
 class FrameLabels {
 public:
     /// Errors in the expressions are added to `script.diagnostics`.
     static Result<FrameLabels> create(Script& script, std::vector<std::string> words);
 
-    /// The text at the present moment of a started stage, such as "small  step = 3400  mean(b over
-    /// domain) = 1.25". Expressions that have no meaning in the stage are left out.
+    /// Returns the text at the present moment of a started stage, such as "small  step = 3400
+    /// mean(b over domain) = 1.25". Expressions that have no meaning in the stage are left out.
     std::string text(const Simulation& simulation, std::uint32_t stage) const;
 
 private:

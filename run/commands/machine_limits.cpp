@@ -1,5 +1,6 @@
-// Runs twelve independent chains of sums and products, a kernel of divisions, and a triad (a + s ·
-// b), on planes that fill each cache. Each measurement is repeated, and the best result counts.
+// Measures three kernels on planes that fill each cache: twelve independent chains of sums and
+// products, divisions, and a triad (a + s · b). Each measurement is repeated, and the best result
+// counts.
 #include "run/commands/machine_limits.h"
 
 #include "core/cache_sizes.h"
@@ -29,16 +30,16 @@ std::string level_name(int number) {
     return fmt::format("{}-level cache", names[static_cast<std::size_t>(at)]);
 }
 
-/// The caches of this machine. If they are unknown, caches with the sizes of common present
-/// processors.
+/// Returns the caches of this machine or, if they are unknown, caches with the sizes that are
+/// common in present processors.
 std::vector<CacheLevel> known_caches() {
     std::vector<CacheLevel> levels = cache_levels();
     if (levels.empty()) levels = {{1, 32 << 10, 1}, {2, 512 << 10, 1}, {3, 8 << 20, 1}};
     return levels;
 }
 
-/// Twelve chains of sums and products, whose results are added at the end. The chains are
-/// independent, so the processor can compute them at the same time.
+/// Makes a kernel of twelve chains of sums and products, whose results are added at the end. The
+/// chains are independent, so the processor can compute them at the same time.
 CellKernel arithmetic_kernel(Precision precision) {
     KernelBuilder builder(precision);
     const ValueId x = builder.field(builder.field_slot("x"));
@@ -78,15 +79,15 @@ CellKernel triad_kernel(Precision precision) {
     return std::move(builder).finish();
 }
 
-/// Measures the time of kernels on a team of threads, each with separate planes. The best of
-/// several times counts.
+/// Measures the time of kernels on a team of threads, each with separate planes. Of several
+/// measurements, the best counts.
 template <typename Number>
 class Meter {
 public:
     Meter(Team& team, const std::atomic<bool>& cancel) : team_(team), cancel_(cancel) {}
 
-    /// The cells that all threads together compute in a second. Each thread has planes of `columns`
-    /// × `rows` cells.
+    /// Measures how many cells all threads together compute in a second. Each thread has planes of
+    /// `columns` × `rows` cells.
     double cells_per_second(const Kernel& kernel, std::size_t fields, std::int64_t columns,
                             std::int64_t rows) {
         Grid grid;
@@ -120,7 +121,7 @@ public:
         return best;
     }
 
-    /// Seconds for a barrier of all threads.
+    /// Measures the seconds that a barrier of all threads takes.
     double meeting() {
         if (team_.size() == 1) return 0;
         constexpr int times = 2000;
@@ -135,7 +136,7 @@ public:
     }
 
 private:
-    /// Seconds for `work`, which all threads begin at the same time.
+    /// Measures the seconds that `work` takes. All threads begin it at the same time.
     template <typename Work>
     double time(Work work) {
         Clock::time_point begin, end;
@@ -213,7 +214,7 @@ Result<MachineLimits> limits_with(Backend& backend, int threads, const std::atom
     };
     double largest = 0;
     for (const CacheLevel& level : known_caches()) {
-        // Cores that share a cache share its capacity. A private cache exists once for each core.
+        // Cores that share a cache share its capacity. If a cache is not shared, each core has one.
         const auto caches = static_cast<double>(std::max<std::int64_t>(1, threads / level.cores));
         const auto bytes = static_cast<double>(level.bytes) * caches;
         largest = std::max(largest, bytes);

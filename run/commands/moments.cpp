@@ -1,4 +1,5 @@
-// Moments are times. They exist only in stages whose `speed` is uniform.
+// Moments are times. Only stages whose `speed` is the same in all cells have a time, and so have
+// moments.
 #include "run/commands/moments.h"
 
 #include "lang/syntax/script_units.h"

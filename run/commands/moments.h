@@ -1,4 +1,5 @@
-// The options --at and --every observe a run at given times between its steps.
+// The options --at and --every, which observe a run at given times. These times may lie between
+// steps.
 #pragma once
 
 #include "core/result.h"

@@ -1,4 +1,4 @@
-// Only the first '=' ends a name, and "==" is a comparison.
+// Only the first '=' of a text can end a name, and only if it is not part of "==", which compares.
 #include "run/commands/named_expression.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace cascade {
 
 namespace {
 
-/// The position of the '=' in "NAME=EXPR". 0 if the text has no name.
+/// Returns the position of the '=' in "NAME=EXPR", or 0 if the text has no name.
 std::size_t end_of_name(std::string_view text) {
     const auto is_of_name = [](char c) {
         return std::isalnum(static_cast<unsigned char>(c)) || c == '_';

@@ -6,7 +6,7 @@
 namespace cascade {
 
 struct NamedExpression {
-    std::string name;  ///< By default the text of the expression.
+    std::string name;  ///< If the text has no name, the text of the expression.
     std::string expression;
 };
 

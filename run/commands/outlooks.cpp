@@ -16,8 +16,8 @@ std::string outlook(const Program& program, std::uint32_t stage) {
     if (const auto words = analysis::negative_diffusion(program, stage)) {
         return fmt::format("stage '{}': {}", program.stages[stage].name, *words);
     }
-    // The lengths of this stage are not scaled yet. The trial run of the stage will show whether
-    // any pattern grows.
+    // Before the trial run, the lengths of a stage with a `size` are not scaled. The trial run will
+    // show whether any pattern grows.
     const auto& size = program.stages[stage].size;
     if (size && size->factor == 1) return "";
     const auto reason = analysis::why_nothing_grows(program, stage);

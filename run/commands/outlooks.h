@@ -1,4 +1,4 @@
-// Predictions of the equations before a run.
+// Predicts from the equations, before a run, what will not grow.
 #pragma once
 
 #include "lang/program/program.h"
@@ -10,11 +10,11 @@
 
 namespace cascade {
 
-/// Warnings that follow from the equations before a run. There is one for each stage of fields
-/// whose start cannot lead to a pattern or whose diffusion is negative, such as "stage 'a': nothing
-/// will grow: no wave grows from …".
+/// Returns warnings that follow from the equations before a run. There is a warning for each stage
+/// of fields whose start cannot lead to a pattern or whose diffusion is negative, such as "stage
+/// 'a': nothing will grow: no wave grows from …".
 std::vector<std::string> outlooks(const Script& script);
-/// The warning for the stage number `stage`. Empty if there is none.
+/// Returns the warning for the stage number `stage`, or an empty string if there is no warning.
 std::string outlook(const Program& program, std::uint32_t stage);
 
 }  // namespace cascade

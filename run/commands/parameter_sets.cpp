@@ -90,7 +90,7 @@ private:
         return {};
     }
 
-    /// Checks a row of values. The header must be checked first, by the same function.
+    /// Checks a row. The first row that is checked must be the header.
     Result<void> check_row(const std::vector<CsvCell>& row) {
         if (row.size() != names_.size()) {
             return wrong(row.size() < names_.size() ? row.back() : row[names_.size()],
@@ -123,7 +123,7 @@ private:
 
     std::string file_;
     std::vector<std::string> names_;
-    /// The line number of each row, by the values of the row.
+    /// Maps the values of a row to the number of its line.
     std::map<std::string, std::size_t> lines_;
     bool is_first_ = true;
 };

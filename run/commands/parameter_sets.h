@@ -1,5 +1,5 @@
-// The table of `cascade sweep --sets`: the header has names of parameters, and each row has the
-// numbers of one run.
+// The table of `cascade sweep --sets`. Its header has names of parameters, and each other row has
+// the numbers of one run.
 #pragma once
 
 #include "core/result.h"
@@ -15,9 +15,9 @@
 namespace cascade {
 
 struct ParameterSets {
-    Variation variation;  ///< All names of the table, which vary together.
-    /// For each cell of the table, its position in the file, such as "sets.csv:3:7", for messages.
-    /// By row (the header first) and column.
+    Variation variation;  ///< All names of the table. They vary together.
+    /// Contains for each cell of the table, by row (the header first) and column, its position in
+    /// the file for messages, such as "sets.csv:3:7".
     std::vector<std::vector<std::string>> places;
 };
 
@@ -27,7 +27,8 @@ struct ParameterSets {
 /// there are more than `most_runs` rows.
 Result<ParameterSets> read_parameter_sets(const std::filesystem::path& path);
 
-/// The first error in the script of run `number` that a name or a value of the table has caused.
+/// Returns the first error in the script of run `number` that a name or a value of the table has
+/// caused.
 std::optional<Failure> fault_in(const ParameterSets& sets, const Script& script,
                                 std::size_t number);
 

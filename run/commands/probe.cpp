@@ -1,4 +1,5 @@
-// Places are the coordinates x, y and z of formulas: 0 … 1 along the longest side of the domain.
+// Places are the coordinates x, y and z of formulas, which go from 0 to 1 along the longest side of
+// the domain.
 #include "run/commands/probe.h"
 
 #include "core/decimal.h"
@@ -18,7 +19,7 @@ namespace {
 
 constexpr std::string_view before_place = " at ";
 
-/// Reads "(0.25, 0.5)" or "0.25, 0.5". Empty if the text has another form.
+/// Reads "(0.25, 0.5)" or "0.25, 0.5". Returns no numbers if the text has another form.
 std::vector<double> numbers_of_place(std::string_view text) {
     std::vector<double> numbers;
     const std::string_view end_of_place = text.starts_with('(') ? ")" : "";
@@ -37,7 +38,8 @@ std::vector<double> numbers_of_place(std::string_view text) {
     }
 }
 
-/// The lengths of the axes along which places are given: x, then y, then z. The longest is 1.
+/// Returns the lengths of the axes x, y and z along which places are given. The longest length is
+/// 1.
 std::vector<double> lengths_of(const Grid& grid) {
     std::vector<std::int64_t> cells = {grid.width};
     if (grid.height * grid.depth > 1) cells.push_back(grid.height);
@@ -54,7 +56,7 @@ bool is_within(const std::vector<double>& place, const std::vector<double>& leng
                       [](double at, double length) { return at >= 0 && at <= length; });
 }
 
-/// The column, row or slice of a place.
+/// Returns the column, row or slice that contains a coordinate of a place.
 std::int64_t cell_at(double place, std::int64_t cells, const Grid& grid) {
     const auto longest = static_cast<double>(grid.longest_side());
     const auto cell = static_cast<std::int64_t>(std::floor(place * longest));

@@ -1,4 +1,4 @@
-// A number of one cell in the log: "EXPR at (x, y)".
+// Numbers of single cells in the log: "EXPR at (x, y)".
 #pragma once
 
 #include "core/result.h"
@@ -14,21 +14,22 @@
 
 namespace cascade {
 
-/// The expressions of a log that are read in one cell.
+/// The expressions of a log that are each evaluated in one cell.
 class Probes {
 public:
-    /// Whether a text has the form "EXPR at (x, y)" or "EXPR at x, y". If so, adds a probe, or an
-    /// error in `script.diagnostics` if the domain has no such place.
+    /// If a text has the form "EXPR at (x, y)" or "EXPR at x, y", adds a probe and returns true. If
+    /// the domain has no such place, adds no probe but an error to `script.diagnostics`.
     bool take(Script& script, const std::string& option, const std::string& text);
     /// Checks the expressions of all probes. Errors are reported in `script.diagnostics`.
     Result<void> check(Script& script, const std::string& option);
-    /// The values in a started stage, in the order of the probes. NaN if an expression has no
-    /// meaning in the stage, and outside a mask.
+    /// Returns the values in a started stage, in the order of the probes. A value is NaN if its
+    /// expression has no meaning in the stage, or if its place is outside a mask.
     std::vector<double> at(const Simulation& simulation, std::uint32_t stage) const;
 
 private:
     std::vector<std::string> expressions_;
-    std::vector<std::array<double, 3>> places_;  ///< 0 to 1 along the longest side.
+    /// Coordinates from 0 to 1 along the longest side of the domain.
+    std::vector<std::array<double, 3>> places_;
     StageFormulas formulas_;
     bool is_wrong_ = false;
 };

@@ -70,7 +70,7 @@ private:
                 const std::string& hint) {
         script_.diagnostics.error(option_span(script_.sources, option, text), message, hint);
     }
-    /// Refuses all of `options` that are given.
+    /// If any of `options` is given, adds an error for it.
     void refuse(Options options, const std::string& message, const std::string& hint = "") {
         for (const RunOption each : options) {
             refuse_if(is_given(request_, each), each, message, hint);
@@ -195,7 +195,7 @@ private:
                how_to_write(FormatKind::model));
     }
 
-    /// Checks the options for models that show how the pattern grew.
+    /// Checks --animate, which shows in a model how the pattern grew.
     void check_animated() {
         if (!files_.animate) return;
         refuse_if(!has_output([&](const auto& output) { return files_.is_animated(output); }),
@@ -212,7 +212,7 @@ private:
                   "run the session's script to see how the pattern grows");
     }
 
-    /// On a model: refuses options that apply to files which are not requested.
+    /// On a model: refuses options that apply only to files that are not requested.
     void check_model_files() {
         const auto is_baked = [&](const auto& output) { return files_.is_baked(output); };
         const bool is_tiled = has_output([&](const auto& output) {
@@ -258,7 +258,7 @@ private:
         check_levels();
     }
 
-    /// On a grid: refuses options that need a model. Planes have maps, too, if `is_plane`.
+    /// On a grid: refuses options that need a model. Permits maps of a plane if `is_plane` is true.
     void check_without_model(bool is_plane) {
         bool has_model = false;
         for (const auto& output : request_.outputs) {
@@ -341,7 +341,7 @@ private:
                   output_of(FormatTrait::transparency) + " has them, or give a colour");
     }
 
-    /// Checks --detail. It carries only the end of a run, so other outputs are refused.
+    /// Checks --detail. Refuses outputs over time, because only the end of a run is refined.
     void check_detail() {
         if (request_.picture.detail == 1) return;
         const auto& model = domain_.model;
@@ -365,7 +365,7 @@ private:
     }
 
     void check_panels() {
-        constexpr std::size_t most = 26;  // Panels are labelled with the letters of the alphabet.
+        constexpr std::size_t most = 26;  // A panel is labelled with a letter of the alphabet.
         if (!has_output_of(FormatKind::figure)) {
             refuse({panel}, "--panel needs a figure, but no figure is drawn",
                    output_of(FormatKind::figure) + " draws one");

@@ -26,7 +26,7 @@ Result<StageEnd> Runner::run_stage(std::uint32_t k) {
             if (control_.cancel) return StageEnd::cancelled;
             return tl::unexpected(started.error());
         }
-        // Until a later stage has taken a step, pictures show the previous stage, whose last frame
+        // Until a later stage has taken a step, pictures show the previous stage. Its last frame
         // has already been recorded.
         if (stage.iterations > 0 && simulation_->state(shown_stage(*simulation_)).steps == 0) {
             look();
@@ -52,8 +52,8 @@ Result<StageEnd> Runner::run_stage(std::uint32_t k) {
     return end;
 }
 
-/// Whether ending the run before its first step loses no computed values. Later, the first step of
-/// a stage of fields sets `may_end` to false. A stage of cells that crawl does not.
+/// Whether no computed values are lost if the run ends before its first step. Later, the first step
+/// of a stage of fields sets `may_end` to false. A stage of cells that crawl does not.
 bool Runner::has_nothing_to_lose() const {
     return request_.resume.empty() && !is_of_cells(*simulation_->domain(0).program, 0);
 }
@@ -75,7 +75,7 @@ Result<void> Runner::run_stages() {
     return {};
 }
 
-/// Carries a finished run to the smaller cells of --detail.
+/// Transfers the end of a finished run to the smaller cells of --detail.
 Result<void> Runner::settle_in_detail() {
     if (!detailed_ || report_.status != RunStatus::finished) return {};
     const auto start = Clock::now();
@@ -98,8 +98,9 @@ void Runner::remark(std::string words) {
     report_.remarks.push_back(std::move(words));
 }
 
-/// For a resumed run, adds a remark on each stage that could take no more steps because of its
-/// `steps`.
+/// For a resumed run, adds a remark on each stage that could take more steps if the next stage had
+/// not already begun with its final state. If the saved run was complete already, adds a remark on
+/// that.
 void Runner::remark_on_resumed() {
     const auto& stages = script_.program->stages;
     for (std::uint32_t k = 0; k + 1 < script_.stage_count(); ++k) {
@@ -116,15 +117,15 @@ void Runner::remark_on_resumed() {
     remark(fmt::format("the saved run was complete already, so no steps were taken: {}", place()));
 }
 
-/// The largest number of steps between observations with which no frame and no row of the log is
-/// missed.
+/// Returns the largest number of steps between observations that misses no frame and no row of the
+/// log.
 std::int64_t Runner::observation_interval(const Stage& stage) const {
     if (!log_) return stage.interval;
     return frames_ || series_ ? std::gcd(log_->every(stage), stage.interval) : log_->every(stage);
 }
 
-/// Whether it is time for a frame. Frames are drawn at the stage's interval, or else at its marks:
-/// multiples of `every` or tenths of its duration.
+/// Whether it is time for a frame. A stage with an interval has frames at this interval. Any other
+/// stage has frames at its marks: at the multiples of `every` or at the tenths of its duration.
 bool Runner::frame_is_due(std::uint32_t k) {
     const std::int64_t interval = script_.program->stages[k].interval;
     if (interval > 0) return simulation_->state(k).steps % interval == 0;
@@ -228,14 +229,15 @@ Result<RunReport> Runner::run() {
     if (report_.status == RunStatus::finished) remark_on_moments();
     const RunResults::Early early = results().write_early();
     control_.may_end = true;
-    // The canvas is made only once, because for a body it may take longer than the steps.
+    // For a body, making the canvas may take longer than the steps, so the canvas is made only
+    // once.
     const Canvas canvas = [&] {
         const TimeAccount::Scope spent(request_.simulation.account, Spent::drawing);
         return painter().canvas(shown());
     }();
     if (report_.status == RunStatus::finished && report_.steps > 0) {
         remark(remark_on_picture(painter(), shown(), canvas));
-        // A sheet shows numbers, so palette and range have an effect.
+        // With --sheet, palette and range have an effect, because a sheet shows numbers.
         if (request_.sheet.empty()) remark(remark_on_look(painter(), shown(), canvas));
         const bool shows_material = request_.picture.show.empty() && request_.sheet.empty() &&
                                     !request_.model_files.has_maps();

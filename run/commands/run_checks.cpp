@@ -27,7 +27,8 @@ namespace cascade {
 std::vector<std::filesystem::path> outputs_of(const Script& script, const RunRequest& request) {
     if (!request.outputs.empty()) return request.outputs;
     const std::filesystem::path picture = output_stem(script) + ".png";
-    // If the script is itself a picture of that name, writing the output would replace the script.
+    // If the script itself is a picture with this name, writing the output would replace the
+    // script.
     std::error_code error;
     if (std::filesystem::equivalent(picture, script.file, error))
         return {output_stem(script) + "-again.png"};
@@ -56,7 +57,7 @@ std::vector<std::filesystem::path> turntable_paths(const std::filesystem::path& 
 
 namespace {
 
-/// A file that a run writes, with the words for the file in messages.
+/// A file that a run writes, and what messages call it.
 struct OutputFile {
     std::filesystem::path path;
     std::string_view what;

@@ -7,15 +7,16 @@
 
 namespace cascade {
 
-/// The paths of option -o, or SCRIPT.png if there are none.
+/// Returns the paths of option -o, or SCRIPT.png if the option is not given.
 std::vector<std::filesystem::path> outputs_of(const Script& script, const RunRequest& request);
 
-/// The path of the log: the requested path, or else a file in the folder of the first output.
+/// Returns the path of the log: the requested path or, if there is none, a file in the folder of
+/// the first output.
 std::filesystem::path log_path(const RunRequest& request,
                                const std::filesystem::path& first_output);
 
-/// The paths of a turntable's pictures, NAME-001.png and so on. The numbers have as many digits as
-/// the last one.
+/// Returns the paths of a turntable's pictures, NAME-001.png and so on. The numbers have as many
+/// digits as the number of the last picture, but at least three.
 std::vector<std::filesystem::path> turntable_paths(const std::filesystem::path& picture, int count);
 
 /// Checks whether the request can be fulfilled for this script. Errors are added to the script's
@@ -35,7 +36,7 @@ Result<void> check_film_sizes(const Script& script, const RunRequest& request,
                               const std::atomic<bool>& cancel);
 
 /// Creates the folders of outputs and tests whether files can be written there. With `tried`,
-/// removes the created folders again.
+/// removes the created folders afterwards.
 enum class Folders { tried, made };
 Result<void> check_folders(const RunRequest& request, Folders folders);
 

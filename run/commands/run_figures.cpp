@@ -17,7 +17,8 @@ namespace cascade {
 
 namespace {
 
-/// The name of the shown stage and the time in it.
+/// Returns a title with the name of the script, the name of the shown stage, and the time in that
+/// stage.
 std::string title_of(const Script& script, const Simulation& simulation) {
     const std::uint32_t stage = shown_stage(simulation);
     std::string title =
@@ -32,12 +33,13 @@ std::string title_of(const Script& script, const Simulation& simulation) {
     return title;
 }
 
-/// The name of an axis: `x (mm)`, or `x` if there is no unit.
+/// Returns the name of an axis with its unit: `x (mm)`, or `x` if there is no unit.
 std::string with_unit(std::string name, const std::string& unit) {
     return unit.empty() ? name : fmt::format("{} ({})", name, unit);
 }
 
-/// The value of a part of a formula. Empty unless the part consists of numbers alone.
+/// Evaluates a part of a formula. Returns an empty optional if the part reads anything that is not
+/// a number.
 std::optional<double> number_in(const Simulation& simulation, const Formula& formula, NodeId part) {
     const Formula number = formula_of(formula.nodes, part);
     const bool is_known = std::ranges::all_of(number.nodes, [](const Node& node) {
@@ -48,15 +50,16 @@ std::optional<double> number_in(const Simulation& simulation, const Formula& for
     return evaluate_numbers(simulation, formulas, shown_stage(simulation)).front();
 }
 
-/// The unit of a part of a formula of the shown stage. Empty if it has none.
+/// Returns the unit of a part of a formula of the shown stage, or an empty string if the part has
+/// no unit.
 std::string unit_of_part(const Script& script, const Simulation& simulation, const Formula& formula,
                          NodeId part) {
     return unit_of_formula(script.tree, *script.program, shown_stage(simulation),
                            formula_of(formula.nodes, part));
 }
 
-/// The bar for a colour. Empty unless the whole colour is palette(e, low, high, "name") with
-/// numbers for low and high.
+/// Makes the bar that explains the colours of a formula. Returns an empty optional unless the whole
+/// formula is palette(e, low, high, "name") with numbers for low and high.
 std::optional<ColourBar> bar_of(const Script& script, const Simulation& simulation,
                                 const std::optional<Formula>& formula) {
     if (!formula || !formula->nodes.back().calls(Function::palette)) return std::nullopt;
@@ -71,8 +74,8 @@ std::optional<ColourBar> bar_of(const Script& script, const Simulation& simulati
                                unit_of_part(script, simulation, *formula, value))};
 }
 
-/// The extent of a flat picture, which may show several copies of the plane, in the script's unit
-/// of length.
+/// Returns the extent of a flat picture in the script's unit of length. The picture may show
+/// several copies of the plane.
 PlaneExtent extent_of(const Simulation& simulation, const PictureRequest& request,
                       const std::string& unit) {
     constexpr std::array names{"x", "y", "z"};

@@ -1,4 +1,5 @@
-// Writes films of a run: its frames, its end seen from all sides, or the slices of a volume.
+// Writes films of a run: of its frames, of its end seen from all sides, or of the slices of a
+// volume.
 #include "core/enough_memory.h"
 #include "run/commands/film_crew.h"
 #include "run/commands/run_results.h"
@@ -40,7 +41,7 @@ Result<void> film_recorded(FilmCrew& crew, FrameRecorder& frames, Painter& paint
 }
 
 /// Writes all films. If Ctrl-C is pressed while frames are drawn, the films end with the present
-/// frame. If an earlier Ctrl-C has ended the run, all frames of the run so far are drawn.
+/// frame. If Ctrl-C has already ended the run before, all frames of the run are drawn.
 Result<void> RunResults::write_films(const Canvas& canvas) {
     std::vector<std::filesystem::path> paths;
     std::copy_if(outputs.begin(), outputs.end(), std::back_inserter(paths), is_film);
@@ -81,7 +82,7 @@ Result<void> RunResults::film_frames(FilmCrew& crew) {
     return drawn;
 }
 
-/// Writes films of the end of the run, with `count` pictures that are drawn one after the other.
+/// Writes films of the end of the run. `draw` draws the `count` pictures one after the other.
 Result<void> RunResults::film_end(FilmCrew& crew, int count, const FilmCrew::Draw& draw) {
     const FilmPlan plan = film_plan(request.film, static_cast<std::size_t>(count), crew.has_gif());
     Result<void> done = crew.begin(plan, draw);
@@ -109,8 +110,8 @@ Result<void> RunResults::film_turntable(FilmCrew& crew, const Canvas& canvas) {
     return done;
 }
 
-/// Writes films of slices at equal distances along the axis of --slice. All slices have the range
-/// of the whole volume.
+/// Writes films of slices at equal distances along the axis of --slice. The colours of all slices
+/// cover the range of values of the whole volume.
 Result<void> RunResults::film_slices(FilmCrew& crew) {
     const ValueRange range = automatic_range(spread_of([&](const auto& take) {
         const Field number = shown_number(painter, simulation);

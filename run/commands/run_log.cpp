@@ -26,8 +26,8 @@ Result<void> check_rows(const Script& script, const LogRequest& request) {
         const Stage& stage = script.program->stages[k];
         // A stage without an interval gets ten rows.
         const std::int64_t every = request.every > 0 ? request.every : stage.interval;
-        // The number of steps is unknown if the stage ends after a duration or makes steps end at
-        // multiples of a time (`every`).
+        // The number of steps is unknown if the stage has a duration, or if the option `every`
+        // makes steps end at multiples of a time.
         const bool is_known = !stage.time.has_duration() && !(stage.time.every > 0);
         if (is_known) rows += every > 0 ? stage.iterations / every : 10;
         if (rows <= most_log_rows) continue;
@@ -37,7 +37,7 @@ Result<void> check_rows(const Script& script, const LogRequest& request) {
     return {};
 }
 
-/// The number of the characteristic length, which follows the features.
+/// The index of the characteristic length, which follows the features.
 constexpr std::size_t number_of_length = measure::feature_count;
 
 std::optional<std::size_t> feature_called(std::string_view name) {
@@ -50,8 +50,8 @@ std::optional<std::size_t> feature_called(std::string_view name) {
 
 }  // namespace
 
-/// Makes a column for each expression. If the script has an item with the name of a feature, the
-/// name means the item.
+/// Makes a column for each expression. If an item of the script has the name of a feature, the name
+/// means the item.
 std::vector<RunLog::Column> RunLog::columns_of(Script& script, const LogRequest& request,
                                                std::vector<std::string>& expressions,
                                                Probes& probes) {

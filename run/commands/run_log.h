@@ -18,19 +18,19 @@
 namespace cascade {
 
 struct LogRequest {
-    /// Uniform expressions, each optionally with "NAME=" in front of it, or names of features. If
-    /// empty, nothing is logged.
+    /// Names of features, or expressions with the same value in all cells. An expression may have
+    /// "NAME=" in front of it. If empty, nothing is logged.
     std::vector<std::string> expressions;
     std::int64_t every = 0;      ///< Steps between rows. 0: the `interval` of each stage.
-    std::filesystem::path file;  ///< If empty, a file in the folder of the picture.
+    std::filesystem::path file;  ///< If empty, the log is a file in the folder of the picture.
 };
 
 /// The largest number of rows of a log. All rows are in memory until the run ends.
 inline constexpr std::int64_t most_log_rows = 10'000'000;
 
 /// The rows of one run. They stay in memory until the run ends, whether it succeeds or fails. The
-/// columns are the stage, the step, the time t, and one for each expression. A cell of the table is
-/// empty if its expression has no meaning in the stage.
+/// columns are the stage, the step, the time t, and each expression. A cell of the table is empty
+/// if its expression has no meaning in the stage.
 class RunLog {
 public:
     /// Checks the expressions for all stages that run. An expression that is valid in no stage, or
@@ -56,9 +56,9 @@ private:
     };
     struct Column {
         std::string name;
-        /// The feature in this column. If empty, the column has the next expression.
+        /// The feature in this column. If empty, the column shows an expression.
         std::optional<std::size_t> feature = {};
-        bool is_probe = false;  ///< Whether the column has the next probe.
+        bool is_probe = false;  ///< Whether the expression of the column is a probe.
     };
     static std::vector<Column> columns_of(Script& script, const LogRequest& request,
                                           std::vector<std::string>& expressions, Probes& probes);
@@ -68,9 +68,11 @@ private:
     std::vector<Column> columns_;
     UniformNumbers numbers_;
     Probes probes_;
-    std::optional<Painter> painter_;  ///< Present if a column has a feature.
+    /// The painter whose picture is measured. Empty if no column has a feature.
+    std::optional<Painter> painter_;
     std::vector<Row> rows_;
-    std::vector<double> values_;  ///< By row: first t, then one value for each column.
+    /// The values of all rows. A row has first t, and then one value for each column.
+    std::vector<double> values_;
     Precision precision_ = Precision::single;
 };
 

@@ -1,4 +1,4 @@
-// Each function searches the tables of options.
+// Each function looks for an option in the tables of options.
 #include "run/commands/run_option.h"
 
 #include "core/check.h"

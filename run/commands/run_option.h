@@ -14,9 +14,9 @@ enum class RunOption {
 #include "run/commands/run_options.def"
 };
 
-/// The option as it is typed, such as "--space-time".
+/// Returns the option as users type it, such as "--space-time".
 std::string flag_of(RunOption option);
-/// Whether the value of the option differs from its initial value.
+/// Whether the value of the option differs from its default.
 bool is_given(const RunRequest& request, RunOption option);
 
 }  // namespace cascade

@@ -42,7 +42,7 @@ Result<void> Runner::prepare() {
     Result<SeriesFields> fields = SeriesFields();
     if (!request_.series.empty()) fields = series_fields(script_, request_, *painter_);
     if (!fields) return tl::unexpected(fields.error());
-    // Making the cells of a model takes a while, so outputs are also checked before that.
+    // Making the cells of a model takes a while, so outputs are checked here for the first time.
     if (script_.program->domain.model || writes_one_moment(request_)) {
         if (auto good = check_places(Folders::tried); !good) return good;
     }
@@ -103,7 +103,8 @@ void Runner::keep_while_running() {
         });
 }
 
-/// If the user has cancelled the run before its first step, records this and returns true.
+/// If the user has cancelled the run before its first step, records this in the report and returns
+/// true. `what` says what was being done.
 bool Runner::has_cancelled(std::string what) {
     if (!control_.cancel) return false;
     report_.status = RunStatus::cancelled;
@@ -127,7 +128,8 @@ Result<std::unique_ptr<LiveRun>> Runner::play_session() {
     return std::move(*played);
 }
 
-/// Makes texture coordinates if files need them, or checks the model's coordinates.
+/// Makes texture coordinates for the model if files need them and the model has none. Otherwise
+/// checks whether maps can be made with the model's own coordinates.
 Result<void> Runner::find_texture(const SurfaceMesh& mesh) {
     const ModelFileOptions& files = request_.model_files;
     if (!needs_texture(mesh, files)) {
@@ -151,7 +153,7 @@ Result<void> Runner::find_texture(const SurfaceMesh& mesh) {
     return {};
 }
 
-/// Computes the size of maps if it is given as texels for each cell.
+/// Computes the size of maps if the user has given it as texels for each cell.
 void Runner::choose_map_size() {
     ModelFileOptions& files = request_.model_files;
     if (!(files.texels_per_cell > 0)) return;
@@ -162,7 +164,7 @@ void Runner::choose_map_size() {
     if (say) say(size.remark);
 }
 
-/// Makes the simulation. There is none if the user cancels the call.
+/// Makes the simulation. If the user cancels, makes none and returns without an error.
 Result<void> Runner::make_simulation() {
     SimulationOptions options = request_.simulation;
     options.control = &control_;

@@ -1,4 +1,4 @@
-// Writes each output of a run, even if another one fails.
+// Writes each output of a run, even if another output fails.
 #include "run/commands/run_results.h"
 
 #include "core/counted.h"
@@ -35,7 +35,7 @@ bool RunResults::has(FormatKind kind) const {
     });
 }
 
-/// Whether this is the path of a file of a model or of cells.
+/// Whether a file with this path contains a model or cells.
 static bool is_of_model(const std::filesystem::path& output) {
     const auto kind = output_kind(output);
     return kind == FormatKind::model || kind == FormatKind::cells;
@@ -88,7 +88,7 @@ Result<void> RunResults::write_final_picture(const std::filesystem::path& path,
     return image ? write_picture(path, *image) : Result<void>();
 }
 
-/// The direction of view of picture `number` in a turntable with `count` pictures.
+/// Returns the direction of view of picture `number` in a turntable of `count` pictures.
 View RunResults::turned_view(std::size_t number, std::size_t count) const {
     View view = request.picture.view;
     view.is_turning = true;
@@ -112,7 +112,7 @@ Result<void> RunResults::write_turntable(const std::filesystem::path& path, cons
     return done;
 }
 
-/// Whether the picture shows the number of option --show.
+/// Whether the picture shows the number that the option --show selects.
 bool RunResults::shows_number(const Canvas& canvas) const {
     return !request.picture.show.empty() && !canvas.is_colour();
 }
@@ -123,7 +123,7 @@ void RunResults::warn_of(const std::vector<std::string>& warnings) const {
     }
 }
 
-/// Writes each model and each file of cells, even if another one fails.
+/// Writes each model and each file of cells, even if another file fails.
 Result<void> RunResults::write_each(const FileWriter& write_one) {
     std::optional<Failure> first;
     for (const auto& output : outputs) {
@@ -155,7 +155,7 @@ Result<void> RunResults::write_shown_files(const Canvas& canvas) {
     });
 }
 
-/// Writes a model that shows all frames of the run. All frames have the same range.
+/// Writes a model that shows all frames of the run. The colours of all frames cover the same range.
 Result<void> RunResults::write_growth(const std::filesystem::path& path) {
     if (auto failed = frames->failure()) return tl::unexpected(*failed);
     if (frames->count() == 0) {
@@ -193,7 +193,7 @@ Result<void> RunResults::write_outputs(const Canvas& canvas) {
     return result ? done : result;
 }
 
-/// The number of frames that are drawn at the same time. It is 1 if memory is limited, because the
+/// Returns how many frames are drawn at the same time. If memory is limited, only one, because the
 /// estimate of memory includes only one picture.
 int RunResults::drawing_threads() const {
     const SimulationOptions& options = request.simulation;

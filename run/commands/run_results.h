@@ -24,22 +24,23 @@ struct RunResults {
     RunControl& control;
     const std::vector<std::filesystem::path>& outputs;  ///< The paths of option -o.
     const Simulation& simulation;
-    /// The run in the script's own cells. This is the run that is saved. With --detail, `script`
-    /// and `simulation` above have smaller cells.
+    /// The run in the script's own cells, which is saved. With --detail, `script` and `simulation`
+    /// above have smaller cells.
     struct {
         const Script& script;
         const Simulation& simulation;
     } own;
-    const MeshTexture& texture;  ///< Texture coordinates made for the model. May be empty.
+    /// Texture coordinates that were made for the model. May be empty.
+    const MeshTexture& texture;
     Painter& painter;
-    /// One for each panel of figures. If empty, figures show the picture.
+    /// A painter for each panel of figures. If empty, figures show the picture.
     std::span<Painter> panels;
     FrameRecorder* frames;  ///< Null if no frames are recorded.
-    /// Frames of an earlier run in the folder of frames.
+    /// Frames that an earlier run has written to the folder of frames.
     const std::vector<std::filesystem::path>& earlier_frames;
     RunLog* log;           ///< Null without --log.
     SeriesWriter* series;  ///< Null without --series.
-    RunReport& report;     ///< Receives the paths of files.
+    RunReport& report;     ///< Receives the paths of the written files.
 
     /// The outputs that are written before pictures, because drawing may fail or be interrupted:
     /// the saved run and, after a cancel, all numbers.
@@ -58,10 +59,11 @@ private:
     Result<void> write_outputs(const Canvas& canvas);
     Result<void> write_final_picture(const std::filesystem::path& path, const Canvas& canvas);
     /// Draws a canvas as a picture for the file `path`. If Ctrl-C stops the drawing, the result is
-    /// empty, and a note in the report says that `what` was left out and which part had been drawn.
+    /// empty, and a note in the report says that `what` was left out and which part of it had been
+    /// drawn.
     std::optional<Image> drawn(const Canvas& canvas, const std::string& what,
                                const std::filesystem::path& path);
-    /// The flag that stops drawing. It is set by Ctrl-C or, if the run was already cancelled, by
+    /// Returns the flag that stops drawing. Ctrl-C sets it or, if the run was already cancelled,
     /// the need to end soon.
     const std::atomic<bool>& stop() const {
         return report.status == RunStatus::cancelled ? control.hurry : control.cancel;

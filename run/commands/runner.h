@@ -74,21 +74,22 @@ private:
     RunReport report_;
     std::vector<std::filesystem::path> outputs_;
     std::unique_ptr<Simulation> simulation_;
-    MeshTexture texture_;                    ///< Texture coordinates made for the model.
+    MeshTexture texture_;                    ///< Texture coordinates that were made for the model.
     std::unique_ptr<DetailedRun> detailed_;  ///< Null without --detail.
-    /// Whether the run has been carried to the smaller cells of --detail.
+    /// Whether the end of the run has been transferred to the smaller cells of --detail.
     bool is_detailed_ = false;
     std::optional<Painter> painter_;
-    std::vector<Painter> panels_;  ///< One for each panel of a figure.
+    std::vector<Painter> panels_;  ///< A painter for each panel of a figure.
     std::optional<FrameRecorder> frames_;
     std::optional<FrameLabels> labels_;
     /// Frames that an earlier run has written to the same folder.
     std::vector<std::filesystem::path> earlier_frames_;
     std::optional<RunLog> log_;
     std::unique_ptr<SeriesWriter> series_;
-    double marks_seen_ = 0;  ///< The number of marks of the stage that had passed when
-                             ///< frame_is_due() was last called.
-    /// The stage of the last moment in the series, and its step or time.
+    /// The number of marks of the stage that had passed at the last call of frame_is_due().
+    double marks_seen_ = 0;
+    /// The stage of the last moment in the series, and the time in that stage. If the stage has no
+    /// time, its step.
     std::optional<std::pair<std::uint32_t, double>> last_in_series_;
 };
 

@@ -64,7 +64,7 @@ Result<std::vector<std::filesystem::path>> save_run(const std::filesystem::path&
 
 namespace {
 
-/// Takes the new path of the model that the user has given. Refuses a different model.
+/// Takes over the new path of the model, if the user has given one. Refuses a different model.
 Result<void> take_model(Overrides& saved, const Overrides& changes) {
     if (!changes.model) return {};
     const auto name = [](const std::string& path) {
@@ -130,7 +130,7 @@ Result<Script> load_saved_script(const std::filesystem::path& folder, const Over
 
 Result<void> restore_run(const std::filesystem::path& folder, const Script& script,
                          Simulation& simulation, const std::atomic<bool>& cancel) {
-    // Another run may be replacing the saved run at this moment.
+    // If another run replaces the saved run at this moment, waits for it.
     const FolderLock lock(folder, true);
     auto json = read_saved_manifest(folder);
     if (!json) return tl::unexpected(json.error());
@@ -149,14 +149,14 @@ Result<void> restore_run(const std::filesystem::path& folder, const Script& scri
             if (auto started = simulation.start_stage(k, cancel); !started) return started;
             auto record = read_stage(folder, *json, stages[k], simulation, k);
             if (!record) return tl::unexpected(damaged(folder, record.error().message));
-            // With --steps, the saved run may have taken more steps than the option allows now.
+            // With --steps, the saved run may have taken more steps than --steps now allows.
             const std::int64_t iterations = script.program->stages[k].iterations;
             if (!script.overrides.steps && record->steps > iterations) {
                 return tl::unexpected(
                     damaged(folder, fmt::format("stage {} has too many steps", k + 1)));
             }
-            // A stage may take more steps than before, but only if no later stage has begun with
-            // its final state.
+            // A stage may take more steps than before only if no later stage has begun with its
+            // final state.
             const bool is_last = k + 1 == stages.size();
             record->done =
                 record->done && (!is_last || record->condition_met || record->steps >= iterations);

@@ -1,5 +1,5 @@
-// Writers and readers lock the folder with flock(). Writers call fsync() between the phases of a
-// change.
+// Writers and readers lock the folder with flock(). Writers call fsync() after each phase of a
+// change, before the next one begins.
 #include "run/commands/saved_folder.h"
 
 #include "core/file.h"
@@ -44,7 +44,8 @@ bool is_manifest(const nlohmann::json& json) {
     return json.is_object() && json.contains("cascade");
 }
 
-/// The entry of a file in run.json. Empty if it is missing or invalid.
+/// Returns the entry of a file in run.json. Returns an empty optional if the entry is missing or
+/// invalid.
 std::optional<SavedFile> saved_file(const nlohmann::json& manifest, const std::string& name) {
     const bool is_array = name.ends_with(".npy") && name.find('/') == std::string::npos;
     const auto files = manifest.find("files");
@@ -70,8 +71,8 @@ std::optional<SavedFile> saved_file(const nlohmann::json& manifest, const std::s
     return file;
 }
 
-/// Whether a run of an earlier version, whose run.json has no list of files, owns this file
-/// STAGE.NAME.npy.
+/// Whether the file `name` has the form STAGE.NAME.npy and so belongs to a run of an earlier
+/// version. The run.json of such a run has no list of files.
 bool is_array_of_a_stage(const nlohmann::json& manifest, std::string_view name) {
     const auto stages = manifest.find("stages");
     if (!name.ends_with(".npy") || stages == manifest.end() || !stages->is_array()) return false;
@@ -81,7 +82,7 @@ bool is_array_of_a_stage(const nlohmann::json& manifest, std::string_view name) 
     });
 }
 
-/// The names of the files of a saved run that exist in the folder.
+/// Returns the names of those files of a saved run that exist in the folder.
 std::vector<std::string> files_of(const nlohmann::json& manifest, const Descriptor& folder) {
     std::vector<std::string> names = names_in(folder);
     const bool is_listed = manifest.contains("files");
@@ -91,8 +92,8 @@ std::vector<std::string> files_of(const nlohmann::json& manifest, const Descript
     return names;
 }
 
-/// The content of run.json in the folder, if it exists. Fails if run.json belongs to another
-/// program.
+/// Returns the content of run.json in the folder, if the file exists. Fails if run.json belongs to
+/// another program.
 Result<std::optional<nlohmann::json>> manifest_before(const fs::path& folder) {
     const fs::path path = folder / manifest_name;
     std::error_code error;
@@ -106,7 +107,7 @@ Result<std::optional<nlohmann::json>> manifest_before(const fs::path& folder) {
                    "save into another folder");
 }
 
-/// Fails if the folder has a file with this name that is not part of the previous run.
+/// Fails if the folder has a file with this name, and the file is not part of the previous run.
 Result<void> check_name(const fs::path& folder, const std::string& name,
                         const std::vector<std::string>& before) {
     std::error_code error;
@@ -157,7 +158,7 @@ Result<std::unique_ptr<SavedFolderChange>> SavedFolderChange::begin(const fs::pa
     return change;
 }
 
-/// Completes the renames of a writer that was killed after its commit, and removes the other files
+/// Completes the renames of a writer that was killed after its commit, and removes all other files
 /// that killed writers have left.
 Result<void> SavedFolderChange::tidy() {
     const int folder = lock_.folder().number();
@@ -221,14 +222,15 @@ Result<std::vector<fs::path>> SavedFolderChange::commit(nlohmann::json manifest)
     std::vector<fs::path> written;
     bool have_their_names = true;
     for (const auto& [name, file] : files_) {
-        // If the rename fails, the file is read later under its temporary name.
+        // If the rename fails, later readers find the file under its temporary name.
         const bool has_its_name =
             ::renameat(folder, file.written_as.c_str(), folder, name.c_str()) == 0;
         have_their_names = have_their_names && has_its_name;
         list[name].erase("written_as");
         written.push_back(path_ / name);
     }
-    // Temporary names are removed from run.json, so that saving the same run gives the same bytes.
+    // Afterwards run.json contains no temporary names, so saving the same run again gives the same
+    // bytes.
     if (have_their_names) (void)replace_manifest(manifest);
     for (const std::string& name : before_) {
         if (!files_.contains(name)) ::unlinkat(folder, name.c_str(), 0);

@@ -4,8 +4,8 @@
 // under temporary names in the same folder. The new run.json contains these names, and replaces the
 // old one in a single rename. Only after that are the new files renamed and the old ones removed.
 // So if a writer is killed at any moment, the folder contains either the old run or the new one
-// completely, and the next writer removes what is left over. Files that no run.json lists are not
-// touched. A run.json of earlier versions has no list. Its files are the arrays of its stages.
+// completely, and the next writer removes what is left over. Other files are not touched. A
+// run.json of an earlier version has no list. The files of its run are the arrays of the stages.
 #pragma once
 
 #include "core/descriptor.h"
@@ -44,7 +44,7 @@ private:
 struct SavedFile {
     std::uint64_t bytes = 0;
     std::uint64_t checksum = 0;  ///< FNV-1a, 64 bits.
-    /// The temporary name that the file may still have. Empty once the file has certainly been
+    /// The temporary name that the file may still have. Empty if the file has certainly been
     /// renamed.
     std::string written_as;
 };
@@ -54,7 +54,7 @@ public:
     /// Locks the folder, which must exist, and removes the files that a killed writer has left.
     /// Fails if run.json does not belong to a saved run.
     static Result<std::unique_ptr<SavedFolderChange>> begin(const std::filesystem::path& folder);
-    /// Removes the new files unless commit() has succeeded.
+    /// Removes the new files if commit() has not succeeded.
     ~SavedFolderChange();
 
     /// Writes a file of the new run. Also fails if the folder has a file of that name that is not

@@ -1,5 +1,5 @@
-// Each struct has a single list of its members, with the smallest valid value of each. All numbers
-// are checked, because the file may have been changed.
+// Each struct has a single list of its members, with the smallest valid value of each member. All
+// numbers are checked, because the file may have been changed.
 #include "run/commands/saved_numbers.h"
 
 #include "run/stage/stage_time.h"
@@ -73,8 +73,8 @@ bool read(const nlohmann::json& json, auto& record, const auto& members) {
     return makes_sense;
 }
 
-/// Whether this number of stages of a step is valid. Stabilised solvers need an odd number. Other
-/// solvers on models may divide steps into any number of parts.
+/// Whether steps with this number of parts are valid. Stabilised solvers divide a step into an odd
+/// number of stages. Other solvers may divide steps on models into any number of parts.
 bool makes_sense(std::uint32_t stages, Solver solver) {
     if (!is_stabilised(solver)) return stages <= most_substeps;
     return stages <= most_stages && (stages == 0 || stages % 2 == 1);

@@ -26,7 +26,7 @@ struct SavedLook {
 // out of range.
 
 /// Reads the time of a stage of fields with this solver. `look` receives the last evaluation of
-/// `steady`. It is empty if there was none.
+/// `steady`, and is empty if there was no evaluation.
 bool read_json(const nlohmann::json& json, Solver solver, StageMoment& progress,
                std::optional<SavedLook>& look);
 bool read_json(const nlohmann::json& json, TissueTime& time);

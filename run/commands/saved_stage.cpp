@@ -1,5 +1,5 @@
-// Fields have the shape of the grid. On a model they are one row of cells, in the order in which
-// files list them. Cells that crawl are in the order of their numbers. Sizes and ranges are
+// Fields have the shape of the grid. On a model a field is one row of cells, in the order in which
+// files list the cells. Cells that crawl are in the order of their numbers. Sizes and ranges are
 // checked, because files may have been changed.
 #include "run/commands/saved_stage.h"
 
@@ -23,11 +23,11 @@ namespace cascade {
 
 namespace {
 
-/// The suffix of species at the last evaluation of `until: steady(…)`.
+/// The suffix of arrays that contain the species at the last evaluation of `until: steady(…)`.
 constexpr std::string_view last_look = ".last";
-// No quantity can have these names.
+// These arrays have names that no quantity can have.
 constexpr std::string_view numbers_array = "cells-numbers", triangles_array = "cells-triangles";
-/// The suffix of the direction in which rates change fastest.
+/// The suffix of arrays that contain the direction in which rates change fastest.
 constexpr std::string_view stiffest = ".stiffest";
 
 std::string array_name(const Program& program, std::uint32_t stage, std::string_view what) {
@@ -53,7 +53,7 @@ public:
         put(what, field);
     }
 
-    /// Writes values of crawling cells, if there are any.
+    /// Writes an array of crawling cells. Writes nothing if there are no cells.
     void add(std::string_view what, const std::vector<double>& values) {
         if (values.empty()) return;
         Plane<double> row(PlaneLayout(Grid{static_cast<std::int64_t>(values.size()), 1}));
@@ -83,7 +83,7 @@ public:
                 const Simulation& simulation, std::uint32_t stage)
         : folder_(folder), manifest_(manifest), simulation_(simulation), stage_(stage) {}
 
-    /// Reads the values of an item of fields, or another array of the same shape.
+    /// Reads the field of an item, or another array of the same shape.
     Field field(std::string_view what) {
         const Precision precision = simulation_.domain().program->domain.precision;
         const SimulationDomain& domain = simulation_.domain(stage_);
@@ -98,7 +98,7 @@ public:
         }
         Field field = to_field(*array, precision);
         if (model) field = in_rows(field, *model->cells);
-        // Outside the mask, files contain NaN and runs contain 0.
+        // In files, values outside the mask are NaN. In runs they are 0.
         if (domain.mask) field = with_outside(field, *domain.mask, 0);
         return field;
     }
@@ -121,7 +121,7 @@ public:
         return failure_ ? std::vector<double>() : std::move(array->values);
     }
 
-    /// Reads whole numbers of 32 bits.
+    /// Reads an array of integers with 32 bits.
     std::vector<std::uint32_t> words(std::string_view what) {
         std::vector<std::uint32_t> result;
         for (const double value : values(what)) {
@@ -158,7 +158,7 @@ private:
     const nlohmann::json& manifest_;
     const Simulation& simulation_;
     std::uint32_t stage_;
-    std::size_t count_ = 0;  ///< The number of cells; 0 before the first array is read.
+    std::size_t count_ = 0;  ///< The number of crawling cells. 0 before the first array is read.
     std::optional<Failure> failure_;
 };
 
@@ -210,7 +210,8 @@ Result<void> read_fields(ArrayReader& arrays, const nlohmann::json& manifest,
                          const Simulation& simulation, std::uint32_t stage, StageRecord& record) {
     const Program& program = *simulation.domain().program;
     const System& system = program.system_of(stage);
-    // Most parameters have the values that the start computes. Painted ones have been saved.
+    // Parameters that were painted have been saved. All others have the values that the start of
+    // the stage computes.
     RecordedFields fields;
     for (const ItemId item : recorded_items(program, stage)) {
         const std::string_view name = system.item_name(item);
@@ -278,11 +279,12 @@ Result<void> read_cells(ArrayReader& arrays, const nlohmann::json& manifest,
     return {};
 }
 
-/// The format in which the values of stages of one kind are saved.
+/// How the values of stages of one kind are saved.
 struct SavedKind {
-    std::vector<std::string_view> arrays;  ///< Besides the arrays of items.
+    /// The names of the arrays that a stage has besides the arrays of its items.
+    std::vector<std::string_view> arrays;
     std::string_view (*second_array)(
-        const Stage&);  ///< The suffix of the array that each species has besides its values.
+        const Stage&);  ///< Returns the suffix of the second array of each species.
     void (*save)(ArrayWriter& arrays, const StageState& state, const Program& program,
                  std::uint32_t stage, nlohmann::json& manifest);
     Result<void> (*read)(ArrayReader& arrays, const nlohmann::json& manifest,

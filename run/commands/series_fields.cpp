@@ -1,4 +1,4 @@
-// All expressions that have a meaning in the stage are evaluated together.
+// Evaluates together all expressions that have a meaning in a stage.
 #include "run/commands/series_fields.h"
 
 #include "core/file_format.h"
@@ -19,7 +19,7 @@ namespace cascade {
 
 namespace {
 
-/// The number that pictures show.
+/// Returns the number that pictures show, as the only field.
 SeriesFields shown_field(Script& script, const RunRequest& request, Painter& painter) {
     std::string name = name_of_number(script, script.final_stage(), request.picture);
     if (name.empty()) name = "shown";
@@ -33,7 +33,7 @@ SeriesFields shown_field(Script& script, const RunRequest& request, Painter& pai
     return fields;
 }
 
-/// The species of all stages that run, in the order of the stages.
+/// Returns the species of all stages that run, in the order of the stages.
 std::vector<std::string> all_species(const Script& script) {
     std::vector<std::string> names;
     for (std::uint32_t k = 0; k < script.stage_count(); ++k) {
@@ -47,8 +47,8 @@ std::vector<std::string> all_species(const Script& script) {
     return names;
 }
 
-/// Whether the fields have different names and, for an HDF5 file, names that datasets can have. If
-/// not, adds an error to `script.diagnostics`.
+/// Returns whether the fields have different names and, for an HDF5 file, names that datasets can
+/// have. Adds an error to `script.diagnostics` if this is not so.
 bool check_names(Script& script, const SeriesFields& fields, bool is_hdf5) {
     const std::string option = flag_of(RunOption::field);
     const auto refuse = [&](const std::string& name, std::string message, std::string hint) {

@@ -8,9 +8,9 @@
 
 namespace cascade {
 
-/// The fields that the expressions of --field give in the shown stage. Without --field, the number
-/// that pictures show, or in a .h5 file the species of all stages. `painter` must outlive the
-/// result. An invalid expression is an error in `script.diagnostics`.
+/// Returns the fields that the expressions of --field give in the shown stage. Without --field,
+/// returns the number that pictures show or, for a .h5 file, the species of all stages. `painter`
+/// must outlive the result. An invalid expression is an error in `script.diagnostics`.
 Result<SeriesFields> series_fields(Script& script, const RunRequest& request, Painter& painter);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Checks expressions of the command line in every stage of a run, as if that stage were the last.
+// Checks expressions of the command line in every stage of a run, as if each stage were the last.
 #pragma once
 
 #include "core/result.h"
@@ -26,20 +26,23 @@ public:
     static Result<StageFormulas> create(Script& script, const std::string& option,
                                         std::span<const std::string> expressions, FormulaKind kind);
 
-    /// Whether the text is an expression that has a meaning in some stage that runs.
+    /// Whether the text is an expression that has a meaning in at least one stage that runs.
     static bool fits_some(Script& script, const std::string& option, const std::string& text);
 
     std::size_t count() const { return formulas_.size(); }
-    /// The formula of an expression in a stage. Null if the expression has no meaning in the stage.
+    /// Returns the formula of an expression in a stage. Returns null if the expression has no
+    /// meaning in the stage.
     const Formula* at(std::size_t expression, std::uint32_t stage) const;
-    /// The formulas of the expressions that have a meaning in the stage, in the order of the
-    /// expressions.
+    /// Returns the formulas of the expressions that have a meaning in the stage, in the order of
+    /// the expressions.
     std::vector<const Formula*> known_in(std::uint32_t stage) const;
 
 private:
     bool add(Script& script, const std::string& option, const std::string& text, FormulaKind kind);
 
-    std::vector<std::vector<std::optional<Formula>>> formulas_;  ///< By expression, then by stage.
+    /// The formula of each expression in each stage. Empty if the expression has no meaning in the
+    /// stage.
+    std::vector<std::vector<std::optional<Formula>>> formulas_;
 };
 
 }  // namespace cascade

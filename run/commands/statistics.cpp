@@ -1,4 +1,5 @@
-// Two passes over the numbers: the mean, then the squares of the differences from it.
+// Passes over the numbers twice: for the mean, and for the squares of the differences from the
+// mean.
 #include "run/commands/statistics.h"
 
 #include <boost/math/distributions/students_t.hpp>

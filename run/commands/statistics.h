@@ -8,8 +8,9 @@ namespace cascade {
 
 /// Statistics of independent numbers, such as a feature in runs with different seeds.
 struct Statistics {
-    std::size_t count = 0;  ///< How many of the numbers are not NaN. Only these count.
-    double mean = 0;        ///< NaN without numbers.
+    /// The number of values that are not NaN. All other values are ignored.
+    std::size_t count = 0;
+    double mean = 0;  ///< NaN if there are no numbers.
     /// The standard deviation of the sample, with count − 1 in the denominator. NaN if there are
     /// fewer than two numbers.
     double deviation = 0;

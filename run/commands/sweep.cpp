@@ -63,7 +63,7 @@ private:
     const SweepRequest& request_;
     SweepControl& control_;
     std::filesystem::path folder_;
-    /// The options of every run, with one thread and the shared compiler.
+    /// The options of every run: a single thread, and the compiler that all runs share.
     SimulationOptions simulation_;
     SweepPlan plan_;
     std::vector<std::optional<SweepResult>> results_;
@@ -74,13 +74,13 @@ private:
     Clock::time_point begun_, reported_;
     std::unique_ptr<SweepQueue> queue_;
     std::vector<std::unique_ptr<RunControl>> controls_;  ///< One for each thread.
-    /// Whether no thread could be created. The caller's thread then takes the runs.
+    /// Whether no thread could be created. The thread of the caller then takes the runs.
     bool is_alone_ = false;
 
     std::mutex mutex_;  ///< Protects the members below, and `results_` during the runs.
     std::condition_variable changed_;
     std::size_t working_ = 0;
-    double shares_done_ = 0;  ///< The sum over all runs of the finished fraction of each, 0 … 1.
+    double shares_done_ = 0;  ///< The sum of the finished fractions (0 … 1) of all runs.
     std::optional<SweepError> stopped_by_;
 };
 
@@ -95,7 +95,7 @@ Result<void> Sweeper::choose_workers(std::size_t waiting) {
         memory = memory > 0 ? std::min(memory, limit) : limit;
     }
     if (memory > 0 && plan_.memory_of_a_run > 0) {
-        // If memory is too small for even a single run, that run reports the error.
+        // If memory is too small for even one run, that run will report the error.
         workers_ = std::max(1, std::min<int>(workers_, static_cast<int>(std::min(
                                                            1e6, memory / plan_.memory_of_a_run))));
     }
@@ -136,7 +136,7 @@ void Sweeper::give_up(SweepError why) {
 }
 
 void Sweeper::work(RunControl& control) {
-    double counted = 0;  // The fraction of this run that is already included in `shares_done_`.
+    double counted = 0;  // The fraction of this run that `shares_done_` already includes.
     control.report = [&](const Progress& progress) {
         const double stage = progress.steps > 0 ? static_cast<double>(progress.step) /
                                                       static_cast<double>(progress.steps)
@@ -162,8 +162,8 @@ void Sweeper::work(RunControl& control) {
     changed_.notify_all();
 }
 
-/// Waits until the threads of this process have ended, and then until the other ranks have. Called
-/// in the caller's thread.
+/// Waits until the threads of this process have ended, and then until the other ranks have ended.
+/// Called in the caller's thread.
 void Sweeper::watch() {
     const std::chrono::milliseconds pause = request_.messenger ? between_messages : between_reports;
     std::unique_lock lock(mutex_);
@@ -174,15 +174,15 @@ void Sweeper::watch() {
         lock.lock();
     }
     lock.unlock();
-    // An error of another rank than rank 0 ends all ranks.
+    // If a rank other than rank 0 has an error, it does not wait, because its error ends all ranks.
     while (!(stopped_by_ && !is_root()) && !queue_->has_finished()) {
         std::this_thread::sleep_for(pause);
         tend();
     }
 }
 
-/// Exchanges messages with other ranks, tells all runs of a cancel, and reports progress. Called in
-/// the caller's thread.
+/// Exchanges messages with other ranks, cancels all runs if the sweep is cancelled, and reports
+/// progress. Called in the caller's thread.
 void Sweeper::tend() {
     for (auto& [number, result] : queue_->serve()) {
         keep(number, std::move(result));
@@ -225,8 +225,8 @@ void Sweeper::run_all() {
             RunControl& control = *controls_[static_cast<std::size_t>(w)];
             threads.emplace_back([&] { work(control); });
         } catch (const std::system_error&) {
-            // No more threads can be created. The existing threads take all runs. If there are
-            // none, this thread takes them.
+            // No further thread can be created, so the existing threads take all runs. If there are
+            // none, this thread takes the runs.
             const std::lock_guard lock(mutex_);
             working_ -= static_cast<std::size_t>(workers_ - std::max(w, 1));
             break;
@@ -241,7 +241,8 @@ void Sweeper::run_all() {
     report_.seconds = seconds_since(begun_);
 }
 
-/// The runs of the part that have no result yet. Other ranks learn them from rank 0.
+/// Finds the runs of the part that have no result yet. Returns none on ranks other than rank 0,
+/// which receive their runs from rank 0.
 Result<std::vector<std::size_t>> Sweeper::find_waiting() {
     std::vector<std::size_t> waiting;
     if (!is_root()) return waiting;
@@ -261,8 +262,8 @@ Result<std::vector<std::size_t>> Sweeper::find_waiting() {
     return waiting;
 }
 
-/// The number of runs to take, on all ranks together. Fails if this rank has planned other runs
-/// than rank 0, because it has another script, file or option.
+/// Returns the number of runs to take, on all ranks together. Fails if this rank has planned other
+/// runs than rank 0, because its script, files or options differ.
 Result<std::size_t> Sweeper::agree(std::size_t waiting) {
     if (request_.messenger == nullptr) return waiting;
     std::uint64_t keys = plan_.runs.size();

@@ -25,8 +25,9 @@
 
 namespace cascade {
 
-/// One of `count` nearly equal parts of the runs of a sweep: runs `number` − 1, `number` − 1 +
-/// `count`, … Several processes can take the parts of one sweep in one folder at the same time.
+/// One of `count` nearly equal parts of a sweep. It consists of the runs `number` − 1, `number` − 1
+/// + `count`, and so on. Several processes can take the parts of one sweep in one folder at the
+/// same time.
 struct SweepPart {
     std::size_t number = 1;  ///< From 1 to `count`.
     std::size_t count = 1;
@@ -37,17 +38,18 @@ struct SweepPart {
 
 struct SweepRequest {
     /// The first variation changes along the rows of the sheet, from left to right. The second
-    /// changes along the columns, from the bottom to the top.
+    /// variation changes along the columns, from the bottom to the top.
     std::vector<Variation> varied;
-    /// The table of option --sets, if given. The first element of `varied` is then the variation of
-    /// the table.
+    /// The table of option --sets. If it is given, the first element of `varied` is the variation
+    /// of the table.
     std::optional<ParameterSets> sets;
-    /// The folder of all outputs. If empty, SCRIPT_sweep in the current folder.
+    /// The folder of all outputs. Empty: SCRIPT_sweep in the current folder.
     std::filesystem::path folder;
-    /// The path of a film that shows the ends of all runs. Empty: none.
+    /// The path of a film that shows the ends of all runs. Empty: no film is written.
     std::filesystem::path film;
     FilmRequest pace;
-    /// Numbers to draw over the first varied name other than the seed, each as NUMBER.svg.
+    /// The names of numbers to draw over the first varied name other than the seed. Each gives a
+    /// file NUMBER.svg.
     std::vector<std::string> curves;
     LogRequest log;          ///< What every run logs. Its member `file` is ignored.
     MomentsRequest moments;  ///< When every run logs.
@@ -60,39 +62,40 @@ struct SweepRequest {
     SweepPart part;       ///< The runs that this process takes.
     /// Folders of other sweeps. Their results are copied instead of taking the runs again.
     std::vector<std::filesystem::path> gathered;
-    SimulationOptions simulation;  ///< `threads` is the number of concurrent runs.
+    SimulationOptions simulation;  ///< Its member `threads` is the number of concurrent runs.
     /// The ranks that share the runs. Null if this process takes all of them.
     Messenger* messenger = nullptr;
-    int ranks_here = 1;  ///< The number of these ranks on this machine, which share its memory.
+    int ranks_here = 1;  ///< The number of ranks on this machine, which share its memory.
 };
 
 /// The progress of a sweep.
 struct SweepProgress {
-    std::size_t runs_done = 0;  ///< Includes runs of an earlier sweep.
+    std::size_t runs_done = 0;  ///< Includes runs that an earlier sweep has taken.
     std::size_t runs = 0;
-    double share = 0;          ///< The finished fraction of the runs of this sweep, 0 … 1.
+    double share = 0;  ///< The finished fraction of the runs that this sweep takes, 0 … 1.
     double seconds_left = -1;  ///< Negative if unknown.
 };
 
 struct SweepControl {
-    std::atomic<bool> cancel{false};                   ///< Ends every run after its present step.
-    std::function<void(const SweepProgress&)> report;  ///< Called in the caller's thread.
+    std::atomic<bool> cancel{false};  ///< Ends every run after its present step.
+    std::function<void(const SweepProgress&)>
+        report;  ///< Called in the thread that has called sweep().
 };
 
 struct SweepReport {
     std::size_t runs = 0;         ///< The number of runs of this part.
     std::size_t done_before = 0;  ///< Runs whose results come from an earlier sweep.
-    /// Runs with values that were not finite. Each of them gets an empty tile and a remark.
+    /// Runs with values that were not finite. Each of these runs gets an empty tile and a remark.
     std::size_t failed = 0;
     std::size_t missing = 0;    ///< Runs that were left out after a cancel.
     std::string first_failure;  ///< The message of the first failed run.
-    std::int64_t steps = 0;     ///< The number of steps of this sweep.
+    std::int64_t steps = 0;     ///< The number of steps that this sweep has taken.
     double seconds = 0;
     std::vector<std::filesystem::path> written;
 };
 
-/// An error in the request, in the file of parameter sets, or in a script with the values of a run.
-/// In the last case `script` contains the messages.
+/// An error in the request, in the file of parameter sets, or in the script with the values of a
+/// run. If the script has errors, `script` contains their messages.
 struct SweepError {
     Failure failure;
     std::optional<Script> script = {};
@@ -106,13 +109,13 @@ struct SweepError {
 /// made or a file cannot be written.
 ///
 /// If ranks share the sweep, all of them call this function. Rank 0 hands out the runs and writes
-/// all files but fields. The report of the others is empty. Fails on a rank whose runs have other
-/// keys than on rank 0.
+/// all files but fields. The report of the other ranks is empty. Fails on a rank whose runs have
+/// other keys than the runs of rank 0.
 tl::expected<SweepReport, SweepError> sweep(const Script& script, const SweepRequest& request,
                                             SweepControl& control);
 
-/// Draws a sheet of all results in the order of their runs. Tiles of missing results are empty. If
-/// the domain has a mask, NaN is transparent.
+/// Draws a sheet of all results in the order of their runs. The tile of a missing result is empty.
+/// If the domain has a mask, NaN is transparent.
 Image draw_sweep(const std::vector<std::optional<SweepResult>>& results,
                  const std::vector<Variation>& varied, const PictureRequest& picture,
                  bool has_mask);
@@ -127,17 +130,17 @@ Result<std::vector<std::filesystem::path>> write_sweep(
 /// Checks before the first run whether the film can be written.
 Result<void> check_sweep_film(const SweepRequest& request, const std::atomic<bool>& cancel);
 
-/// Writes a film that shows the ends of all runs, in their order. Each frame shows the values of
-/// its run in a corner. All frames have the range of the sheet. Runs that failed or are missing are
-/// left out. Fails if no run is left. After `cancel` is set, waits for ffmpeg only while it makes
-/// progress.
+/// Writes a film that shows the ends of all runs, in their order. Each frame shows in a corner the
+/// varied values of its run. The colours of all frames cover the range of the sheet. Runs that
+/// failed or are missing are left out. Fails if no run is left. After `cancel` is set, waits for
+/// ffmpeg only while ffmpeg makes progress.
 Result<void> film_sweep(const std::filesystem::path& path, const FilmRequest& pace,
                         const std::vector<std::optional<SweepResult>>& results,
                         const std::vector<Variation>& varied, const PictureRequest& picture,
                         bool has_mask, const std::atomic<bool>& cancel = never_cancelled);
 
-/// The table of features. It has a row for each run: its values, features, number of steps, and
-/// remark.
+/// Writes the table of features. It has a row for each run, with the run's values, features, number
+/// of steps and remark.
 std::string sweep_table(const std::vector<std::optional<SweepResult>>& results,
                         const std::vector<Variation>& varied);
 

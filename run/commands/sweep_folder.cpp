@@ -10,7 +10,8 @@
 namespace cascade {
 namespace {
 
-/// Copies the result of a run from another sweep. Returns nothing if no sweep has it.
+/// Copies the result of a run from the folder of another sweep. Returns an empty optional if no
+/// gathered folder contains the result.
 Result<std::optional<SweepResult>> gather(const SweepRequest& request,
                                           const std::filesystem::path& to, const std::string& key) {
     for (const auto& folder : request.gathered) {

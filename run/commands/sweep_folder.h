@@ -10,8 +10,9 @@ namespace cascade {
 /// cannot be written there.
 Result<void> prepare_folder(const std::filesystem::path& folder);
 
-/// The result of a run, if the folder or a gathered folder has it. A result of a gathered folder is
-/// copied to the folder. Empty if the run must be taken. Fails if the copy cannot be written.
+/// Returns the result of a run from the folder. If only a gathered folder has the result, copies it
+/// to the folder first. Returns an empty optional if the run must be taken. Fails if the copy
+/// cannot be written.
 Result<std::optional<SweepResult>> earlier_result(const SweepRequest& request,
                                                   const std::filesystem::path& folder,
                                                   const PlannedRun& run);

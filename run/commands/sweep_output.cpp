@@ -25,8 +25,9 @@ MapAxis axis_of(const std::vector<Variation>& varied, std::size_t which) {
     return {"", {""}};
 }
 
-/// The vertical axis of the sheet, for the second variation. If there are more than two variations,
-/// the axis combines all except the first, and the second varies fastest.
+/// Returns the vertical axis of the sheet, which shows the second variation. If there are more than
+/// two variations, the axis shows all combinations of the variations after the first. The second
+/// variation then changes fastest.
 MapAxis upward_axis(const std::vector<Variation>& varied) {
     if (varied.size() <= 2) return axis_of(varied, 1);
     const std::span<const Variation> others = std::span(varied).subspan(1);
@@ -42,7 +43,8 @@ MapAxis upward_axis(const std::vector<Variation>& varied) {
     return axis;
 }
 
-/// The common range of all tiles, which makes them comparable.
+/// Returns the range of the values in all tiles. The tiles share this range, so that they can be
+/// compared.
 ValueRange range_of_all(const std::vector<std::optional<SweepResult>>& results) {
     Spread all;
     for (const auto& result : results) {
@@ -63,7 +65,7 @@ MapTile tile_of(const std::optional<SweepResult>& result, ValueRange range, cons
     return {std::move(image), ""};
 }
 
-/// The values of a run as text, such as "feed = 0.03  kill = 0.06".
+/// Writes the values of a run, such as "feed = 0.03  kill = 0.06".
 std::string values_as_text(const std::vector<Variation>& varied, std::size_t run) {
     const std::vector<std::string> names = names_of(varied), values = values_of_run(varied, run);
     std::vector<std::string> parts;
@@ -73,7 +75,7 @@ std::string values_as_text(const std::vector<Variation>& varied, std::size_t run
     return fmt::format("{}", fmt::join(parts, "  "));
 }
 
-// Smaller pictures are enlarged to this side, so that captions fit.
+// Pictures with shorter sides are enlarged to this side, so that captions fit.
 constexpr std::int64_t least_film_side = 240;
 
 }  // namespace

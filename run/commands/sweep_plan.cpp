@@ -1,4 +1,5 @@
-// Plans a sweep: its values, its scripts, and whether the result can be drawn.
+// Plans a sweep: finds the values and scripts of its runs, and checks whether the result can be
+// drawn.
 #include "run/commands/sweep_plan.h"
 
 #include "run/commands/ensemble.h"
@@ -43,13 +44,14 @@ Planned check_outputs(Script script, const SweepRequest& request) {
     return tl::unexpected(std::move(error));
 }
 
-/// A hint on how to vary the grid, which no --set can change; "" for other names.
+/// Returns a hint on how to vary the grid, which --set cannot change. Returns an empty text for
+/// other names.
 std::string_view hint_of_domain(std::string_view name) {
     if (name == "grid") return "write let n = 64 and grid: n, n in the script, and --vary n=32,64";
     return "";
 }
 
-/// The first error that the value of a varied name has caused.
+/// Returns the first error that the value of a varied name has caused.
 std::optional<Failure> fault_in(const PlannedRun& run, const SweepRequest& request,
                                 const Script& script) {
     const std::vector<std::string> names = names_of(request.varied);
@@ -120,7 +122,8 @@ Result<void> check_curves(const SweepRequest& request) {
     return {};
 }
 
-/// Refuses outputs that a part of a sweep, or a sweep that gathers results, cannot write.
+/// Checks --part and --gather: refuses too many parts, outputs that such a sweep cannot write, and
+/// folders without results.
 Result<void> check_division(const SweepRequest& request, std::size_t runs) {
     if (request.part.count > runs) {
         return failure(fmt::format("{} parts are too many for the {} runs of the sweep",
@@ -165,7 +168,7 @@ Script load(const Script& script, const PlannedRun& run) {
 tl::expected<SweepPlan, SweepError> plan_sweep(const Script& script, const SweepRequest& request) {
     const auto count = count_runs(request.varied);
     if (!count) return tl::unexpected(SweepError{count.error()});
-    // The sheet is a single picture in memory.
+    // The sheet is a single picture in memory, so its size is limited.
     constexpr double most_pixels = 1 << 27;
     const double pixels = static_cast<double>(*count) * request.tile_side * request.tile_side;
     if (pixels > most_pixels) {

@@ -13,7 +13,7 @@ namespace cascade {
 struct PlannedRun {
     Overrides overrides;
     std::vector<std::string> values;  ///< One for each varied name.
-    std::string key;                  ///< As key_of_run() computes it.
+    std::string key;                  ///< The result of key_of_run().
 };
 
 struct SweepPlan {
@@ -27,7 +27,7 @@ struct SweepPlan {
 /// Loads and checks the script with the values of every run of the part.
 tl::expected<SweepPlan, SweepError> plan_sweep(const Script& script, const SweepRequest& request);
 
-/// The script with the values of a run.
+/// Loads the script with the values of a run.
 Script load(const Script& script, const PlannedRun& run);
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
-// A message begins with a letter that says its kind. In messages of two kinds, the number of a run
-// follows. In results, the packed result follows the number.
+// A message begins with a letter that says its kind. Messages that hand out a run continue with its
+// number. Results continue with the number of the run and the packed result.
 #include "run/commands/sweep_queue.h"
 
 #include "core/check.h"
@@ -13,9 +13,9 @@
 namespace cascade {
 namespace {
 
-// From other ranks to rank 0.
+// The letters of messages from other ranks to rank 0.
 constexpr char asks = 'a', gives = 'g', leaves = 'l';
-// From rank 0 to others.
+// The letters of messages from rank 0 to other ranks.
 constexpr char run_follows = 'r', no_more = 'n', cancelled = 'c', released = 'e';
 
 constexpr auto between_looks = std::chrono::milliseconds(1);

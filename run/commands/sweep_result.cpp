@@ -1,5 +1,5 @@
 // The key of a run is a hash of its tokens, files and overrides, so comments and blanks do not
-// matter. The picture is stored as averages over squares of cells.
+// change the key. The picture is stored as averages over squares of cells.
 #include "run/commands/sweep_result.h"
 
 #include "core/file.h"
@@ -91,7 +91,7 @@ Grid flat_grid(std::int64_t width, std::int64_t height) {
     return grid;
 }
 
-/// All planes of a canvas, one below the other.
+/// Puts all planes of a canvas into one field, one below the other.
 Field stacked(const Canvas& canvas) {
     const PlaneLayout& layout = canvas.fields[0].layout();
     const auto count = static_cast<std::int64_t>(canvas.fields.size());
@@ -121,8 +121,8 @@ std::optional<Canvas> unstacked(const Result<NpyArray>& array, std::size_t plane
     return canvas;
 }
 
-/// Averages over squares of `factor` × `factor` cells, or over fewer cells at the last columns and
-/// rows. Cells outside the domain (NaN) are ignored.
+/// Averages over squares of `factor` × `factor` cells. In the last columns and rows, the squares
+/// may have fewer cells. Cells outside the domain (NaN) are ignored.
 Field average(const Field& field, std::int64_t factor) {
     const PlaneLayout& from = field.layout();
     Field small{PlaneLayout(
@@ -151,10 +151,11 @@ std::string json_text_of(const SweepResult& result) {
     return json_of(result).dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-/// The result that json_text_of() has written. `tile_of` reads its array, if there is one.
+/// Reads a result from the text that json_text_of() has written. `tile_of` reads the array of the
+/// result, if there is one.
 template <typename TileOf>
 std::optional<SweepResult> result_in(std::string_view text, const TileOf& tile_of) {
-    // The JSON library throws exceptions, none of which may leave this function.
+    // The JSON library throws exceptions. None of them may leave this function.
     try {
         const auto json = nlohmann::json::parse(text);
         SweepResult result;
@@ -183,8 +184,7 @@ std::string key_of_run(const Script& script, const PictureRequest& picture, int 
     std::uint64_t hash = add_line(fnv1a("sweep 2"), version());
     hash = add_files(add_words(hash, script), script);
     hash = add_line(hash, overrides_to_json(script.overrides));
-    // Colours and their range are not part of the key, because they are chosen when the sheet is
-    // drawn.
+    // Colours and their range are chosen when the sheet is drawn, so they are not part of the key.
     PictureRequest shown;
     shown.show = picture.show;
     shown.slice = picture.slice;

@@ -18,8 +18,9 @@ namespace cascade {
 
 struct SweepResult {
     std::optional<measure::Features> features;  ///< Empty if the run failed.
-    Canvas tile;  ///< The picture's values, averaged over squares of cells. Without fields if the
-                  ///< run failed.
+    /// The picture's values, averaged over squares of cells. The tile has no fields if the run
+    /// failed.
+    Canvas tile;
     /// The numbers of cells, if the shown stage has crawling cells.
     std::optional<CellCounts> cells;
     std::int64_t steps = 0;  ///< The sum over all stages.
@@ -41,19 +42,21 @@ std::string key_of_run(const Script& script, const PictureRequest& picture, int 
 Result<void> write_result(const std::filesystem::path& folder, const std::string& key,
                           const SweepResult& result);
 
-/// The result with this key. Empty if there is none, or if it is damaged.
+/// Reads the result with this key. Returns an empty optional if there is no result, or if it is
+/// damaged.
 std::optional<SweepResult> read_result(const std::filesystem::path& folder, const std::string& key);
 
-/// The result as bytes, for another process of the same build.
+/// Packs a result into bytes for another process of the same build.
 std::string pack_result(const SweepResult& result);
-/// The result that pack_result() has packed. Empty if the bytes are damaged.
+/// Unpacks a result that pack_result() has packed. Returns an empty optional if the bytes are
+/// damaged.
 std::optional<SweepResult> unpack_result(std::string_view bytes);
 
-/// An image as a canvas of its colours, so that shrink() can reduce it.
+/// Makes a canvas of the colours of an image, so that shrink() can reduce it.
 Canvas canvas_of(const Image& image);
 
-/// Averages every plane of a canvas over squares of cells. The squares are so large that no side of
-/// the result is longer than `side`.
+/// Averages every plane of a canvas over squares of cells. The squares are as large as needed so
+/// that no side of the result is longer than `side`.
 Canvas shrink(const Canvas& canvas, int side);
 
 }  // namespace cascade

@@ -1,4 +1,5 @@
-// Evaluates uniform expressions of the command line at a moment of a run.
+// Evaluates expressions of the command line that have the same value in all cells, at a moment of a
+// run.
 #pragma once
 
 #include "core/result.h"
@@ -20,8 +21,8 @@ public:
                                          std::span<const std::string> expressions);
 
     std::size_t count() const { return formulas_.count(); }
-    /// The values of the expressions in a started stage. NaN for an expression that has no meaning
-    /// in the stage.
+    /// Returns the values of the expressions in a started stage. A value is NaN if its expression
+    /// has no meaning in the stage.
     std::vector<double> at(const Simulation& simulation, std::uint32_t stage) const;
 
 private:

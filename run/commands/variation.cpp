@@ -1,5 +1,4 @@
-// Lists are split at commas outside of brackets. Runs are numbered so that the first name varies
-// fastest.
+// Lists are split at commas outside of brackets. From run to run, the first name varies fastest.
 #include "run/commands/variation.h"
 
 #include "lang/syntax/script_units.h"
@@ -39,8 +38,8 @@ bool is_joint(const Variation& variation) {
     return variation.name.starts_with('(') && variation.name.ends_with(')');
 }
 
-/// The error for LOW:HIGH:COUNT, the notation of other programs for ranges. Empty for any other
-/// text.
+/// Returns the error for LOW:HIGH:COUNT, in which other programs write ranges. Returns an empty
+/// optional for any other text.
 std::optional<Failure> colons_for_dots(std::string_view text, std::string_view name,
                                        std::string_view values) {
     const std::size_t first = values.find(':'), last = values.rfind(':');
@@ -85,7 +84,8 @@ std::vector<std::string> spread(double low, double high, std::int64_t count, Dis
             count == 1 ? 0 : static_cast<double>(k) / static_cast<double>(count - 1);
         const double value = distances == Distances::equal ? low + (high - low) * share
                                                            : low * std::pow(high / low, share);
-        // A number closer to 0 than this is the rounding error of a 0.
+        // A result that is closer to 0 than this is the rounding error of a result that should be
+        // 0.
         const double least = 1e-12 * std::max(std::abs(low), std::abs(high));
         values.push_back(fmt::format("{:.10g}", std::abs(value) < least ? 0.0 : value));
     }
@@ -113,7 +113,8 @@ std::vector<std::string> parts_of(std::string_view joint) {
     return split_list(joint.substr(1, joint.size() - 2));
 }
 
-/// Describes why the values of a list are invalid for its name. Empty if they are valid.
+/// Describes why the values of a list are invalid for its name. Returns an empty string if they are
+/// valid.
 std::string fault_of(const Variation& variation) {
     if (!is_joint(variation)) return "";
     const std::size_t count = parts_of(variation.name).size();
@@ -125,7 +126,7 @@ std::string fault_of(const Variation& variation) {
     return "";
 }
 
-/// A value that a list contains twice. Empty if there is none.
+/// Returns a value that a list contains twice, or an empty string if all values differ.
 std::string listed_twice(std::vector<std::string> values) {
     std::sort(values.begin(), values.end());
     const auto twice = std::adjacent_find(values.begin(), values.end());

@@ -19,7 +19,7 @@ namespace cascade {
 struct Variation {
     /// A name that `--set` accepts, `seed`, or several names in brackets.
     std::string name;
-    std::vector<std::string> values;  ///< At least one.
+    std::vector<std::string> values;  ///< Contains at least one value.
 
     friend bool operator==(const Variation&, const Variation&) = default;
 };
@@ -50,10 +50,11 @@ struct VariedRange {
 /// ends are numbers or fractions. A unit after the second end is the unit of both.
 Result<VariedRange> parse_varied_range(std::string_view text);
 
-/// The inverse of parse_variation(). Ranges become lists: "ka=1/400,1/200".
+/// Writes a variation as a text that parse_variation() accepts. Ranges become lists:
+/// "ka=1/400,1/200".
 std::string text_of(const Variation& variation);
 
-/// A number or a fraction of two numbers: "0.02", "1/400".
+/// Reads a number or a fraction of two numbers: "0.02", "1/400".
 std::optional<double> read_number(std::string_view text);
 
 /// A number or a fraction, and the unit that may follow it after a blank.
@@ -71,19 +72,19 @@ std::optional<std::uint32_t> read_seed(std::string_view text);
 /// The hint in messages about texts that are not seeds.
 inline constexpr const char* what_seeds_are = "a seed must be a whole number from 0 to 4294967295";
 
-/// The number of runs, which is the number of all combinations of values. Fails if a name is varied
-/// twice, if a value is listed twice, or if there are more than `most_runs` runs.
+/// Returns the number of runs, which is the number of all combinations of values. Fails if a name
+/// is varied twice, if a value is listed twice, or if there are more than `most_runs` runs.
 Result<std::size_t> count_runs(std::span<const Variation> varied);
 
-/// All names. Names that vary together are separate elements.
+/// Returns all names of the variations. Names that vary together are separate elements.
 std::vector<std::string> names_of(std::span<const Variation> varied);
 
-/// The values that run `number` gives to the names, in the same order. From run to run, the first
-/// variation changes fastest.
+/// Returns the values of the names in run `number`, in the order of names_of(). From run to run,
+/// the first variation changes fastest.
 std::vector<std::string> values_of_run(std::span<const Variation> varied, std::size_t number);
 
-/// The name of the folder for a run's fields, such as "feed=0.02,kill=0.05". A slash is replaced by
-/// '_'.
+/// Returns the name of the folder for a run's fields, such as "feed=0.02,kill=0.05". A slash is
+/// replaced by '_'.
 std::string folder_name(std::span<const Variation> varied, std::span<const std::string> values);
 
 /// Adds the values of a run to `base`. A value of `seed` sets the seed. All other values are

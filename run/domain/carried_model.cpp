@@ -1,5 +1,5 @@
-// The bytes contain lists of numbers, each preceded by its length, and the cells in the format of
-// files of cells.
+// The bytes contain lists of numbers and the cells. The length of a list precedes its numbers. The
+// cells have the format of files of cells.
 #include "run/domain/carried_model.h"
 
 #include "surface/cell_file.h"
@@ -33,7 +33,7 @@ private:
     std::string bytes_{model_magic};
 };
 
-/// Reads the bytes. Fails at the first length that exceeds the rest of the bytes.
+/// Reads the bytes. Fails as soon as a length exceeds the rest of the bytes.
 class ModelReader {
 public:
     explicit ModelReader(std::string_view bytes) : rest_(bytes) {
@@ -73,8 +73,8 @@ private:
     bool is_sound_ = true;
 };
 
-/// Whether all corners are numbers of existing points, and the links between neighbouring edges
-/// lead both ways.
+/// Whether all corners refer to existing points, and each link from an edge to a neighbouring edge
+/// has a link back.
 bool is_sound(const SurfaceMesh& mesh) {
     for (std::uint32_t k = 0; k < mesh.triangles.size(); ++k) {
         for (std::uint32_t corner = 0; corner < 3; ++corner) {

@@ -24,8 +24,8 @@ namespace cascade {
 
 namespace {
 
-/// Dividing a cell reads other cells up to this distance, in cells. So values are continued this
-/// far beyond the border of a mask.
+/// To divide a cell, values of other cells up to this distance, in cells, are needed. So values are
+/// continued this far beyond the border of a mask.
 constexpr int reach_beyond = 4;
 
 /// Calls `visit(i, j, k)` for the neighbours of a cell along all axes.
@@ -53,9 +53,9 @@ void visit_cells(const Grid& grid, const Visit& visit) {
     }
 }
 
-/// A copy of the plane in which cells near the mask have values, too. These cells are filled in
-/// rounds, from the border outwards. Each cell gets the mean over its neighbours that already have
-/// a value.
+/// Returns a copy of the plane in which cells just outside the mask have values, too. These cells
+/// are filled in rounds, from the border outwards. Each cell gets the mean over its neighbours that
+/// already have a value.
 template <typename Number>
 Plane<Number> continued(const Plane<Number>& plane, const Grid& grid, const Mask& inside) {
     Plane<Number> result = plane.clone();
@@ -80,7 +80,7 @@ Plane<Number> continued(const Plane<Number>& plane, const Grid& grid, const Mask
     return result;
 }
 
-/// The cells at one side of an axis as a smaller grid, in the same order.
+/// Returns a smaller grid of the cells at one side of an axis, in the same order.
 Grid face_of(const Grid& grid, std::size_t axis) {
     return {axis == 0 ? grid.height : grid.width, axis == 2 ? grid.height : grid.depth};
 }

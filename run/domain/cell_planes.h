@@ -27,8 +27,8 @@ void for_each_place(const Grid& grid, const std::vector<std::uint32_t>& order, c
     }
 }
 
-/// A plane with the values `value(cell, is_cell)` (see for_each_place()). They are numbers, or
-/// unsigned integers for a plane of words.
+/// Makes a plane with the values `value(cell, is_cell)`, whose arguments for_each_place() explains.
+/// Values are numbers, or unsigned integers for a plane of words.
 template <typename Value>
 Field plane_of_cells(const Grid& grid, const std::vector<std::uint32_t>& order, Precision precision,
                      const Value& value) {

@@ -1,4 +1,5 @@
-// Moves the model to the origin and scales its longest side to 1, before rounding to binary32.
+// Moves the model to the origin and scales its longest side to 1, both before numbers are rounded
+// to binary32.
 #include "run/domain/creased_mesh.h"
 
 #include "mesh/normals.h"
@@ -11,7 +12,7 @@ namespace cascade {
 TriangleMesh creased_mesh(const SurfaceMesh& surface, const Vector3d& middle, double scale) {
     CornerNormals corners = corner_normals(surface);
     TriangleMesh mesh;
-    // A point gets a separate vertex for each of its normals.
+    // A point gets a separate vertex for each of its different normals.
     mesh.positions.reserve(corners.points.size());
     mesh.normals.reserve(corners.points.size());
     for (std::size_t k = 0; k < corners.points.size(); ++k) {

@@ -8,7 +8,7 @@ namespace cascade {
 
 /// A mesh to be drawn. A position p on the model becomes (p − middle) × scale.
 struct DrawnMesh {
-    /// Triangles and their corners have the same numbers as in the model's surface.
+    /// The triangles and their corners have the same numbers as in the surface of the model.
     TriangleMesh mesh;
     Vector3d middle;
     double scale = 1;  ///< Chosen so that the longest side of the bounding box becomes 1.
@@ -17,7 +17,8 @@ struct DrawnMesh {
 /// Makes the mesh of a surface. A normal is the average over the triangles around a point, except
 /// across edges with an angle of more than 60°. Throws std::bad_alloc.
 DrawnMesh creased_mesh(const SurfaceMesh& surface);
-/// Makes the mesh with a given middle and scale.
+/// Makes the mesh with this middle and scale, for example with the middle and scale of another
+/// surface.
 TriangleMesh creased_mesh(const SurfaceMesh& surface, const Vector3d& middle, double scale);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// A thread waits for the end of the time or of the work, whichever comes first.
+// A thread waits until the time is over or the work has ended, whichever comes first.
 #include "run/domain/deadline.h"
 
 #include <chrono>

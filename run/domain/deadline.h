@@ -6,8 +6,8 @@
 
 namespace cascade {
 
-/// Sets `cancel` after this many seconds, unless the deadline is destroyed before. 0 seconds:
-/// never.
+/// Sets `cancel` after a number of seconds, unless the deadline is destroyed before. 0 seconds:
+/// `cancel` is never set.
 class Deadline {
 public:
     Deadline(double seconds, std::atomic<bool>& cancel);
@@ -15,8 +15,8 @@ public:
     Deadline(const Deadline&) = delete;
     Deadline& operator=(const Deadline&) = delete;
 
-    /// Ends the deadline, which no longer changes `cancel` afterwards. Returns whether the time was
-    /// over, and if so, resets `cancel`.
+    /// Ends the deadline, which no longer changes `cancel` afterwards. If the time was over, resets
+    /// `cancel` and returns true.
     bool ends_work();
 
 private:

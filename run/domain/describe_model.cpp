@@ -1,6 +1,6 @@
-// Reads and repairs models in the same way as a run. The genus is computed from the Euler
-// characteristic. How evenly cells are spread is computed from their areas and the distances to
-// their nearest neighbours.
+// Reads and repairs models in the same way as a run does. Computes the genus from the Euler
+// characteristic. Measures how evenly cells are spread by their areas and by the distances to their
+// nearest neighbours.
 #include "run/domain/describe_model.h"
 
 #include "atlas/texture_facts.h"
@@ -20,8 +20,8 @@ namespace cascade {
 
 namespace {
 
-/// The name of a closed surface to which a component is homeomorphic. If the component is not
-/// closed, the number of its boundaries.
+/// Returns the name of a closed surface to which a component is homeomorphic. If the component is
+/// not closed, returns the number of its boundaries.
 std::string kind_of(const MeshFacts& facts) {
     if (facts.boundaries > 0) {
         return counted(facts.boundaries, "boundary", "boundaries");
@@ -99,7 +99,7 @@ namespace {
 
 struct MeanAndDeviation {
     double mean = 0;
-    double deviation = 0;  ///< The standard deviation, in percent of the mean.
+    double deviation = 0;  ///< The standard deviation as a percentage of the mean.
 };
 
 MeanAndDeviation mean_and_deviation(const std::vector<double>& values) {

@@ -15,8 +15,8 @@
 
 namespace cascade {
 
-/// Reads and repairs a model's file. Files whose names it contains must be in or below its own
-/// folder or the folders of `access`. Fails if the file cannot be used (mesh/model_file.h,
+/// Reads and repairs a model's file. Other files that it names must be in or below its own folder
+/// or the folders of `access`. Fails if the file cannot be used (mesh/model_file.h,
 /// mesh/make_mesh.h). Throws std::bad_alloc.
 Result<MadeMesh> read_and_repair(const std::filesystem::path& path, const ReadAccess& access);
 
@@ -28,8 +28,8 @@ std::vector<std::string> describe_model(const MadeMesh& made);
 /// Throws std::bad_alloc.
 std::string describe_texture(const SurfaceMesh& mesh);
 
-/// Lists the named positions on a surface, one in each line, in the coordinates of scripts
-/// (spec/models.md): its extremes along the axes and its tips (surface/tips.h). Throws
+/// Describes the named positions on a surface (spec/models.md): its extremes along the axes and its
+/// tips (surface/tips.h). There is a line for each position, with coordinates as in scripts. Throws
 /// std::bad_alloc. The result is meaningless if `cancel` became true.
 std::vector<std::string> describe_points(const SurfaceMesh& mesh, const std::atomic<bool>& cancel);
 

@@ -12,7 +12,7 @@ namespace cascade {
 
 namespace {
 
-/// The bits of the cell (i, j, k) and of the 26 cells around it.
+/// Returns the bits of the cell (i, j, k) and of the 26 cells around it.
 std::uint32_t bits_around(const Plane<float>& inside, std::int64_t i, std::int64_t j,
                           std::int64_t k) {
     const std::int64_t reach = inside.layout().has_halo_slices() ? 1 : 0;

@@ -1,4 +1,4 @@
-// Compares the values of all cells in order. The result is NaN as soon as a value is NaN.
+// Compares the values of all cells in order. As soon as a value is NaN, the result is NaN.
 #include "run/domain/field_values.h"
 
 #include "core/check.h"
@@ -13,8 +13,8 @@ namespace cascade {
 
 namespace {
 
-/// The value inside the mask for which beats(value, other) is true for every other value. If
-/// several values are equal, the first. NaN if a value is NaN.
+/// Returns the value inside the mask for which beats(value, other) is true for every other value.
+/// If several values are equal, returns the first of them. Returns NaN if a value is NaN.
 template <typename Beats>
 double extreme(const Field& field, const DomainMask* mask, const Beats& beats) {
     return field.visit([&](const auto& plane) -> double {

@@ -1,5 +1,5 @@
-// Computes positions in files cell by cell in binary64 whenever they are needed. Slopes of formulas
-// are computed as differences.
+// Computes positions in files cell by cell, in binary64, whenever they are needed. Computes slopes
+// of formulas as differences.
 #include "run/domain/file_places.h"
 
 #include "lang/program/evaluate.h"
@@ -16,14 +16,16 @@ namespace cascade {
 
 namespace {
 
-constexpr double slope_width = 1e-4;  // The step of differences, as a fraction of the longest side.
-// Shorter directions get no angle. Their components should be 0, but ½ is not exact in 8 bits.
+constexpr double slope_width =
+    1e-4;  // The step from which slopes are computed, as a fraction of the longest side.
+// If a direction is shorter than this, its angle is 0. Its components should be 0, but ½ is not
+// exact in 8 bits.
 constexpr double shortest_direction = 0.01;
 // A component that is smaller than this fraction of the other component counts as 0.
 constexpr double rounded_component = 1e-9;
 
-/// A position among the `count` elements along one side of a file. It is described by the elements
-/// before and after it and by the weight of the second of these.
+/// A position among the elements along one side of a file. It is described by the elements before
+/// and after it and by the weight of the element after it.
 struct BetweenElements {
     std::size_t before = 0, after = 0;
     double part = 0;
@@ -43,7 +45,7 @@ struct BetweenElements {
     }
 };
 
-/// The number at a position in an array of slices, rows and columns.
+/// Interpolates the number at a position in an array of slices, rows and columns.
 template <typename Number>
 double number_at(const std::vector<Number>& values, std::array<std::int64_t, 3> sides,
                  const FilePlace& place, bool repeats) {
@@ -109,8 +111,8 @@ void each_of_model(const ModelCells& model, const Visit& visit) {
     }
 }
 
-/// Moves a position by a vector. The vector's unit is the longest side of the domain's box, whose
-/// size is `extent`.
+/// Moves a position by a vector. The unit of the vector is the longest side of the domain's box.
+/// `extent` is the size of this box.
 BuiltinValues moved(BuiltinValues place, Vector3d by, Vector3d extent) {
     const std::array<double, 3> way{by.x, by.y, by.z}, sides{extent.x, extent.y, extent.z};
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -132,7 +134,8 @@ FilePlace minus(const FilePlace& a, const FilePlace& b) {
     return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
-/// The gradient of a linear function in the plane of a triangle, from its values at the corners.
+/// Returns the gradient, in the plane of a triangle, of the linear function with these values at
+/// the corners.
 Vector3d gradient_in(const SurfaceMesh& mesh, std::uint32_t triangle,
                      const std::array<double, 3>& corners) {
     const auto& [a, b, c] = mesh.triangles[triangle];
@@ -145,21 +148,20 @@ Vector3d gradient_in(const SurfaceMesh& mesh, std::uint32_t triangle,
     return u * ((du * vv - dv * uv) / area) + v * ((dv * uu - du * uv) / area);
 }
 
-/// The angle, on the surface or grid, that corresponds to a step in a picture. The step is given in
-/// pixels to the right and upwards.
+/// Returns the angle on the surface or grid that corresponds to a step in a picture. The step is
+/// given in pixels to the right and upwards.
 double angle_of(double to_right, double upwards, std::array<double, 2> sides,
                 const FileSlopes& slopes) {
     if (!(to_right * to_right + upwards * upwards >= shortest_direction * shortest_direction)) {
         return 0;
     }
-    // Solves two linear equations for the step on the surface that corresponds to this step in the
-    // picture.
+    // Solves two linear equations for the step on the surface.
     const double a = to_right / sides[0], b = -upwards / sides[1];
     const auto& [right, down] = slopes;
     const double sign = right[0] * down[1] - right[1] * down[0] < 0 ? -1 : 1;
     const double x = sign * (a * down[1] - b * down[0]);
     double y = sign * (b * right[0] - a * right[1]);
-    // A step to the left gets the angle π. Rounding errors could otherwise give −π, which is the
+    // A step to the left must get the angle π. With rounding errors it could get −π, which is the
     // same direction but another number.
     if (std::abs(y) <= rounded_component * std::abs(x)) y = 0;
     return std::isfinite(x) && std::isfinite(y) ? std::atan2(y, x) : 0;

@@ -18,48 +18,49 @@
 
 namespace cascade {
 
-/// A position in a file by three fractions, each 0 … 1: of the width from the left, of the height
-/// from the top, and of the depth from the first slice.
+/// A position in a file by three fractions from 0 to 1: of the width, counted from the left, of the
+/// height, counted from the top, and of the depth, counted from the first slice.
 using FilePlace = std::array<double, 3>;
 
-/// The number at a position in an array, interpolated linearly between the centres of elements.
+/// Interpolates the number at a position in an array, linearly between the centres of elements.
 /// Positions outside of 0 … 1 give the value at the nearest side. `values` are ordered by slices,
 /// rows and columns. `sides` contains the numbers of columns, rows and slices.
 double number_at_place(const std::vector<double>& values, std::array<std::int64_t, 3> sides,
                        const FilePlace& place);
 
-/// The changes of a position in a picture along the surface or grid: for a short step to the right,
-/// and for an equally long step downwards (surface/cell_frames.h). Only the ratio of the changes is
-/// used, so the length of the steps does not matter.
+/// How a position in a picture changes with steps along the surface or grid: with a short step to
+/// the right, and with an equally long step downwards (surface/cell_frames.h). Only the ratio of
+/// the changes is used, so the length of the steps does not matter.
 struct FileSlopes {
     FilePlace right{}, down{};
 };
 
-/// The position in a file that belongs to each cell of a domain. Cells of a grid are ordered row by
-/// row through all slices. Cells of a model are in their own order. The model must outlive this
-/// object.
+/// Maps each cell of a domain to its position in a file. Cells of a grid are ordered row by row
+/// through all slices. Cells of a model are in their own order. The model must outlive this object.
 class FilePlaces {
 public:
-    /// Positions that formulas of the cell's position give. Beyond 0 … 1 the file continues with
+    /// Computes positions by formulas of the cell's position. Beyond 0 … 1 the file continues with
     /// the values at its side. `model` is null on grids.
     static FilePlaces by_formulas(std::vector<Formula> place, const Grid& grid,
                                   const ModelCells* model, bool with_slopes);
-    /// Positions in a file whose sides coincide with the sides of the grid.
+    /// Takes positions in a file whose sides coincide with the sides of the grid.
     static FilePlaces of_grid(const Grid& grid);
-    /// Positions at the texture coordinates of a model. Beyond 0 … 1 the picture repeats. Fails if
-    /// the model has no texture coordinates, and says how to make some.
+    /// Takes the texture coordinates of a model as positions. Beyond 0 … 1 the picture repeats.
+    /// Fails if the model has no texture coordinates, and says how to make some.
     static Result<FilePlaces> of_texture(const ModelCells& model, const ModelSettings& settings,
                                          bool with_slopes);
 
-    /// The numbers of a picture, interpolated linearly between the centres of pixels.
+    /// Returns the numbers of a picture at all positions, interpolated linearly between the centres
+    /// of pixels.
     std::vector<double> numbers(const GreyPicture& picture) const;
-    /// The numbers of an array, interpolated linearly between the centres of elements. If positions
-    /// have no slice, the array must have only one.
+    /// Returns the numbers of an array at all positions, interpolated linearly between the centres
+    /// of elements. If positions have no slice, the array must have only one slice.
     std::vector<double> numbers(const NpyArray& array) const;
-    /// Angles of the directions painted in two channels of a picture. Red values 0 … 1 mean −1 … 1
-    /// to the right in the picture, and green values 0 … 1 mean −1 … 1 upwards. Angles are measured
-    /// on the surface or grid, from the right downwards. They are 0 where both values are nearly ½
-    /// or where positions do not change. The positions must have slopes.
+    /// Returns the angles of the directions that are painted in two channels of a picture. Red
+    /// values 0 … 1 mean −1 … 1 to the right in the picture, and green values 0 … 1 mean −1 … 1
+    /// upwards. Angles are measured on the surface or grid, from the right downwards. They are 0
+    /// where both values are nearly ½ or where positions do not change. The positions must have
+    /// slopes.
     std::vector<double> angles(const GreyPicture& red, const GreyPicture& green) const;
 
 private:
@@ -70,8 +71,8 @@ private:
     std::vector<double> numbers_of(const std::vector<Number>& values,
                                    std::array<std::int64_t, 3> sides) const;
 
-    /// Computes positions when they are needed, because storing them would take more memory than
-    /// planes.
+    /// Computes positions again whenever they are needed, because storing them would take more
+    /// memory than planes do.
     ForEach each_;
     bool repeats_;
 };

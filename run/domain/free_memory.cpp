@@ -1,5 +1,5 @@
-// Reads /proc/meminfo, and the limits of control groups of both versions, from this process's group
-// up to the top. Cached pages of files count as free, because the system can release them.
+// Reads /proc/meminfo, and the limits of all control groups (version 1 and 2) from this process's
+// group up to the top. Cached pages of files count as free, because the system can release them.
 #include "run/domain/free_memory.h"
 
 #include <algorithm>
@@ -22,7 +22,8 @@ constexpr GroupFiles version_2{"memory.max", "memory.current", "inactive_file", 
 constexpr GroupFiles version_1{"memory.limit_in_bytes", "memory.usage_in_bytes",
                                "total_inactive_file", "total_active_file"};
 
-/// The number in a file. Empty if the file contains anything else, such as "max".
+/// Returns the number in a file. Returns an empty optional if the file contains anything else, such
+/// as "max".
 std::optional<std::uint64_t> number_in(const fs::path& path) {
     std::ifstream file(path);
     std::uint64_t number = 0;
@@ -30,7 +31,7 @@ std::optional<std::uint64_t> number_in(const fs::path& path) {
     return std::nullopt;
 }
 
-/// The number after a key in a file with lines "KEY NUMBER …". 0 if the key is missing.
+/// Returns the number after a key in a file with lines "KEY NUMBER …", or 0 if the key is missing.
 std::uint64_t number_of(const fs::path& path, std::string_view key) {
     std::ifstream file(path);
     std::string word, rest;
@@ -42,7 +43,8 @@ std::uint64_t number_of(const fs::path& path, std::string_view key) {
     return 0;
 }
 
-/// The free bytes below the limit of one group. Empty if it has no limit.
+/// Returns the free bytes below the limit of one group. Returns an empty optional if the group has
+/// no limit.
 std::optional<std::uint64_t> left_in(const fs::path& group, const GroupFiles& names) {
     const auto limit = number_in(group / names.limit);
     const auto used = number_in(group / names.used);
@@ -54,12 +56,13 @@ std::optional<std::uint64_t> left_in(const fs::path& group, const GroupFiles& na
     return *limit - std::min(*limit, held);
 }
 
-/// The smallest number of free bytes in a group and the groups above it, up to `top`.
+/// Returns the smallest number of free bytes among a group and the groups above it, up to and
+/// including `top`.
 std::optional<std::uint64_t> left_up_to(const fs::path& top, const std::string& group,
                                         const GroupFiles& names) {
     std::optional<std::uint64_t> least;
-    // In a container, this path is often the path outside of the container. Then only the last
-    // group of the path is visible, as `top`.
+    // In a container, `group` is often the path outside of the container. Of this path, only the
+    // last group is then visible, as `top`.
     fs::path path = fs::path(group).lexically_normal().relative_path();
     while (true) {
         if (const auto left = left_in(top / path, names))
@@ -80,8 +83,7 @@ std::uint64_t available_memory(const fs::path& root) {
                 std::max<std::uint64_t>(1, available > 0 ? std::min(available, *bytes) : *bytes);
     };
     const fs::path groups = root / "sys/fs/cgroup";
-    // Lines are, for example, "0::/user.slice" (version 2) or "5:cpu,memory:/docker/7a" (version
-    // 1).
+    // Examples of lines are "0::/user.slice" (version 2) and "5:cpu,memory:/docker/7a" (version 1).
     std::ifstream file(root / "proc/self/cgroup");
     for (std::string line; std::getline(file, line);) {
         const std::size_t first = line.find(':');

@@ -1,5 +1,5 @@
-// Reads every file once, through GrantedFiles, which refuses files that the script may not read.
-// Errors are reported at the file's name in the script.
+// Reads every file only once, through GrantedFiles, which refuses files that the script may not
+// read. Errors are reported at the file's name in the script.
 #include "run/domain/input_files.h"
 
 #include "core/check.h"
@@ -48,7 +48,8 @@ std::optional<NpyArray> read_array(Script& script, const Node& node) {
     return std::nullopt;
 }
 
-/// Returns whether an array has as many rows and columns as the grid. If not, reports an error.
+/// Returns whether an array has as many rows and columns as the grid. If not, adds an error to the
+/// script's diagnostics.
 bool fits_grid(Script& script, const Node& node, const NpyArray& array, const Grid& grid) {
     const std::string& name = script.program->literals->text(text_of(node));
     if (fits(array, grid)) return true;
@@ -85,7 +86,8 @@ public:
     FileReader(Script& script, const ModelCells* model)
         : script_(script), model_(model), grid_(script.program->domain.grid) {}
 
-    /// Makes a plane from a file. If that fails, reports an error and returns an empty optional.
+    /// Makes a plane from a file. If that fails, adds an error to the script's diagnostics and
+    /// returns an empty optional.
     std::optional<Field> read(const NamedPlane& name, const Node& text) const {
         const FileReading& reading = script_.program->literals->reading(name.reading);
         switch (name.function) {
@@ -95,8 +97,8 @@ public:
         }
     }
 
-    /// Reads a file for the kernel of a convolution. If that fails, reports an error and returns an
-    /// empty optional.
+    /// Reads a file for the kernel of a convolution. If that fails, adds an error to the script's
+    /// diagnostics and returns an empty optional.
     std::optional<KernelFile> read_kernel(const NamedPlane& name, const Node& text) const {
         const FileReading& reading = script_.program->literals->reading(name.reading);
         if (name.function == Function::image) {
@@ -111,7 +113,7 @@ public:
 
 private:
     /// Returns whether it is clear which slice of an array is read. If the array has several slices
-    /// but the position has no slice, reports an error and returns false.
+    /// and the position has no slice, adds an error to the script's diagnostics.
     bool knows_slices(const NpyArray& array, const FileReading& reading, const Node& text) const {
         if (array.slices == 1 || reading.place.size() == 3) return true;
         script_.diagnostics.error(
@@ -205,7 +207,7 @@ void each_text_of(const Formula& formula, std::set<NamedPlane>& known, const Rea
     }
 }
 
-/// Calls `read(name, text)` for the file names in kernels of convolutions.
+/// Calls `read(name, text)` for each file name in the kernels of convolutions.
 template <typename Read>
 void each_kernel_file(const Script& script, const Read& read) {
     std::set<NamedPlane> known;

@@ -1,5 +1,5 @@
-// The data that scripts name in quotes: arrays of `field("a.npy")`, pictures of `image("a.png")`
-// and, on models, attributes of `attr("name")`.
+// The data that scripts name in quotes: arrays in `field("a.npy")`, pictures in `image("a.png")`
+// and, on models, attributes in `attr("name")`.
 #pragma once
 
 #include "core/picture_channel.h"
@@ -26,17 +26,18 @@ public:
     void add_kernel(NamedPlane name, KernelFile file) {
         kernels_[name] = std::make_shared<const KernelFile>(std::move(file));
     }
-    /// The weights of a convolution's kernel that were read from the file `name`.
+    /// Returns the weights of a convolution's kernel that were read from the file `name`.
     const KernelFile& kernel(NamedPlane name) const { return *kernels_.at(name); }
 
-    /// Calls `look(name, plane)` for each file that scripts read by `function`.
+    /// Calls `look(name, plane)` for each file that scripts read by the function `function`.
     template <typename Look>
     void each_of(Function function, const Look& look) const {
         for (const auto& [name, plane] : planes_) {
             if (name.function == function) look(name, plane);
         }
     }
-    /// A copy in which `make` has made a new plane from each plane. Names and kernels are the same.
+    /// Returns a copy with the planes that `make` returns for the present planes. Names and kernels
+    /// are the same.
     template <typename Make>
     InputFiles mapped(const Make& make) const {
         InputFiles result;
@@ -50,12 +51,12 @@ private:
     std::map<NamedPlane, std::shared_ptr<const KernelFile>> kernels_;
 };
 
-/// The names of the files that the mask and the formulas of stages read. For each picture, the
-/// channels that are read.
+/// Returns the names of the files that the mask and the formulas of stages read, and for each
+/// picture the channels that are read.
 std::map<std::string, std::set<PictureChannel>> input_files_of(const Script& script);
 
-/// Checks whether a model's points have all attributes that attr() reads. For each missing one,
-/// adds an error at the place in the script that reads it.
+/// Checks whether a model's points have all attributes that attr() reads. For each missing
+/// attribute, adds an error at the place in the script that reads it.
 Result<void> check_attributes(Script& script, const SurfaceMesh& mesh);
 
 /// Reads every file that the mask or a formula names, relative to the script's folder, and the

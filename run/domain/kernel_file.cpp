@@ -1,4 +1,5 @@
-// Computes positions in the file in binary64, in the same way as file_places.cpp does for cells.
+// Computes positions in the file in binary64, in the same way as run/domain/file_places.cpp
+// computes the positions of cells.
 #include "run/domain/kernel_file.h"
 
 #include "lang/program/evaluate.h"
@@ -12,7 +13,7 @@ namespace cascade {
 
 namespace {
 
-/// The value of a formula that contains numbers, a distance, and components of a direction.
+/// Evaluates a formula of numbers, a distance, and components of a direction.
 double value_at(const Formula& formula, double distance, const std::array<double, 3>& direction) {
     double value = 0;
     const KnownValues known = [&](const Node& node, const OperandColumns& operands,
@@ -21,8 +22,8 @@ double value_at(const Formula& formula, double distance, const std::array<double
             values[0] = *lag == CellValue::distance ? distance : 0;
             return true;
         }
-        // The only vector in the formula is the direction. The second operand is the number of the
-        // axis.
+        // The only vector in the formula is the direction. The second operand of component() is the
+        // number of the axis.
         if (!node.calls(Function::component)) return false;
         values[0] = direction[static_cast<std::size_t>(operands[1][0])];
         return true;

@@ -13,18 +13,18 @@ namespace cascade {
 
 class KernelFile {
 public:
-    /// `place` contains the formulas for the position at which the file has the weight of a lag,
-    /// that is, of a displacement between two cells. The formulas contain numbers, and the distance
-    /// and direction of the lag (FileReading::place).
+    /// `place` contains formulas for a position in the file. They map a lag, which is a
+    /// displacement between two cells, to the position of its weight. The formulas contain numbers,
+    /// and the distance and direction of the lag (FileReading::place).
     KernelFile(const GreyPicture& picture, std::vector<Formula> place);
     KernelFile(const NpyArray& array, std::vector<Formula> place);
 
-    /// The weight of a lag, interpolated as in FilePlaces. `distance` is the length of the lag in
-    /// the script's unit, and `direction` its unit vector.
+    /// Returns the weight of a lag, interpolated as in FilePlaces. `distance` is the length of the
+    /// lag in the script's unit, and `direction` is its unit vector.
     double at(double distance, const std::array<double, 3>& direction) const;
 
 private:
-    std::vector<double> values_;  ///< Ordered by slice, row and column.
+    std::vector<double> values_;  ///< Ordered by slices, rows and columns.
     std::array<std::int64_t, 3> sides_;
     std::vector<Formula> place_;
 };

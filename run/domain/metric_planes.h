@@ -11,7 +11,8 @@
 
 namespace cascade {
 
-/// The function that maps parameters to positions on the surface. The result refers to `surface`.
+/// Returns the function that maps parameters to positions on the surface. The function refers to
+/// `surface`.
 SurfaceFunction function_of(const SurfaceSettings& surface);
 
 /// The length of one unit in coordinates of the surface, at t = 0. Empty if the script sets neither

@@ -1,5 +1,5 @@
-// Reads or makes the mesh, turns it upright, and makes its cells (run/domain/spread_cells), either
-// at once or in the first call of spread().
+// Reads or makes the mesh, and turns it upright. Makes its cells (run/domain/spread_cells) either
+// immediately or in the first call of spread().
 #include "run/domain/model_cells.h"
 
 #include "core/check.h"
@@ -60,7 +60,7 @@ Result<MadeMesh> make_surface(const ModelSettings& settings, const Literals& lit
             mesh = box_mesh(sides, edge * std::max({sides.x, sides.y, sides.z}));
             break;
         }
-        // The knot has a size of 6, so its edges may be three times as long.
+        // The knot is 6 units large, so its edges may be three times as long.
         case ModelShape::knot: mesh = knot_mesh(size(0, 0.4), 3 * edge); break;
         case ModelShape::creature: mesh = mesh_of(creature(), cancel); break;
         case ModelShape::leopard: mesh = mesh_of(leopard(), cancel); break;

@@ -15,7 +15,7 @@ namespace cascade {
 
 namespace {
 
-/// Bytes for each triangle, for its half-edges and the data of OpenMesh's tools.
+/// Bytes for a triangle, including its half-edges and the data of OpenMesh's tools.
 constexpr double bytes_when_subdivided = 300, bytes_when_simplified = 400;
 
 Result<void> check_memory(double triangles, double bytes_each) {

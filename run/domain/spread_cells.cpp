@@ -28,8 +28,8 @@ namespace cascade {
 
 namespace {
 
-/// The weights of a Laplacian, one for each edge of the Voronoi diagram, in the domain's unit of
-/// length.
+/// Computes the weights of a Laplacian, one for each edge of the Voronoi diagram, in the domain's
+/// unit of length.
 std::vector<double> weights_of(const SurfaceCells& cells, ModelLaplacian laplacian,
                                const Conduction& conduction, double unit, double mean_area) {
     std::vector<double> weights;
@@ -69,7 +69,7 @@ CellOptions options_of(const CellRequest& request) {
 
 constexpr std::int64_t percent = 100;
 
-/// `part` is the completed part of the work, 0 … 1.
+/// `part` is the fraction of the work that is complete, 0 … 1.
 void report(const RunControl& control, std::string what, double part) {
     if (!control.report) return;
     Progress progress;
@@ -80,7 +80,7 @@ void report(const RunControl& control, std::string what, double part) {
 }
 
 /// Reads the cells from a file in the folder `cache`, or makes them and writes the file. An error
-/// while writing is ignored, because the cells are the same in any case.
+/// while writing is ignored, because the cells do not depend on the file.
 Result<SurfaceCells> cells_kept_in(const std::filesystem::path& cache, const SurfaceMesh& mesh,
                                    const CellOptions& options, Team& team,
                                    const RunControl& control) {
@@ -146,8 +146,8 @@ private:
         made_.links = Links(list, PlaneLayout(made_.grid), precision_, made_.order);
     }
 
-    /// Makes a plane with the value `value(k)` in cell k. Values are numbers, or unsigned integers
-    /// for planes of words.
+    /// Makes a plane with the value `value(k)` in cell k. The values are numbers, or unsigned
+    /// integers for a plane of words.
     template <typename Value>
     void put(ModelPlane plane, const Value& value) {
         made_.planes[static_cast<std::size_t>(plane)] =
@@ -164,8 +164,8 @@ private:
         made_.planes.resize(model_plane_count);
         const SurfaceCells& cells = made_.cells;
         put(ModelPlane::number, [](std::size_t k) { return static_cast<std::uint32_t>(k); });
-        // The area is 0 in the unused positions of the last row, so that these do not count in
-        // sums.
+        // The area is 0 in the unused positions of the last row, so that these positions do not
+        // count in sums.
         made_.planes[static_cast<std::size_t>(ModelPlane::area)] = plane_of_cells(
             made_.grid, made_.order, precision_,
             [&](std::size_t cell, bool is_cell) { return is_cell ? areas[cell] : 0.0; });
@@ -190,7 +190,7 @@ private:
         put(ModelPlane::nx, [&](std::size_t k) { return normals[k].x; });
         put(ModelPlane::ny, [&](std::size_t k) { return normals[k].y; });
         put(ModelPlane::nz, [&](std::size_t k) { return normals[k].z; });
-        // The radii of curvature by Turk's estimate.
+        // The radii of curvature at the points, by Turk's estimate.
         std::vector<double> bends = turk_radii(mesh_);
         for (double& radius : bends) radius = radius > 0 ? made_.unit / radius : 0;
         put(ModelPlane::curvature,

@@ -1,5 +1,5 @@
-// Computes each value once, when it is first read. In cells that no path reaches, distances get a
-// large finite value.
+// Computes each value when it is first read, and stores it. In cells that no path reaches,
+// distances have a large finite value.
 #include "run/domain/surface_values.h"
 
 #include "core/near_name.h"
@@ -27,12 +27,12 @@ namespace cascade {
 
 namespace {
 
-/// The time of the last use of values that the script reads. It is so late that these values are
-/// never deleted.
+/// The time of the last use for values that the script itself reads. It is later than all times, so
+/// these values are never deleted.
 constexpr std::int64_t always = std::numeric_limits<std::int64_t>::max();
 
-/// The largest distance that a formula needs. If the formula only compares the distance with
-/// numbers, this is the largest of these numbers. Otherwise it is infinity.
+/// Returns the largest distance that a formula needs. If the formula only compares the distance
+/// with numbers, this is the largest of these numbers. Otherwise it is infinity.
 double reach_needed(const Formula& formula, SurfaceValueId id) {
     constexpr std::array comparisons = {Function::less, Function::less_equal, Function::greater,
                                         Function::greater_equal};
@@ -106,7 +106,8 @@ std::vector<double> SurfaceValues::distances(std::span<const double> places, dou
     const SurfaceDistance distance(paths_->mesh, sources, cancel, reach);
     std::vector<double> found(model_.count(), unreachable_distance);
     for (std::size_t cell = 0; cell < found.size(); ++cell) {
-        // No path is shorter than the straight line, so cells at this distance are out of reach.
+        // No path is shorter than the straight line. So a cell is out of reach if all straight
+        // lines to it are longer than `reach`.
         const bool is_far =
             std::none_of(positions.begin(), positions.end(), [&](const Vector3d& from) {
                 return !(length(paths_->cells[cell] - from) > reach);
@@ -146,7 +147,7 @@ void SurfaceValues::make(std::span<const Formula* const> formulas,
             if (!node.is<Builtin>()) continue;
             const auto read = model_plane_of(*node.as<Builtin>());
             if (read && is_made_when_read(*read)) (void)plane(*read);
-            // Curvatures are computed together with the cells. So the cells must be made before the
+            // Curvatures are computed when the cells are made, so the cells must be made before the
             // run.
             if (read == ModelPlane::curvature) (void)model_.spread();
         }
@@ -235,7 +236,7 @@ void SurfaceValues::make_directions() {
     put(ModelPlane::place_z, [&](std::size_t k) { return places[k].z; });
 }
 
-/// The angles of a field of directions, measured in the frame of each cell.
+/// Computes the angles of a field of directions, measured in the frame of each cell.
 std::vector<double> SurfaceValues::angles(const SurfaceValue& value,
                                           const std::atomic<bool>& cancel) {
     const SurfaceCells& cells = model_.spread().cells;

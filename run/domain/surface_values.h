@@ -1,5 +1,5 @@
-// Values of a model's cells that depend on positions on its surface: distances, values interpolated
-// between keys, curvatures, directions, and attributes of its points.
+// Values in the cells of a model that depend on positions on its surface: distances, values
+// interpolated between keys, curvatures, directions, and attributes of the model's points.
 #pragma once
 
 #include "core/parallel.h"
@@ -42,23 +42,23 @@ public:
 
     const Field& value(SurfaceValueId id);
     /// Must be called before the formulas of a picture or a stroke are evaluated, which happens
-    /// many times a second. Such formulas may name new positions each time. So a value that make()
-    /// has not computed is deleted if none of the last `evaluations_kept` evaluations has read it.
-    /// If the formulas only compare a distance with numbers, it is computed only as far as these
-    /// comparisons need.
+    /// many times a second. Such formulas may name new positions each time, so their values are not
+    /// stored forever. A value that make() has not computed is deleted if none of the last
+    /// `evaluations_kept` evaluations has read it. If the formulas only compare a distance with
+    /// numbers, the distance is computed only as far as these comparisons need.
     void prepare(std::span<const Formula* const> formulas);
     /// The number of stored values.
     std::size_t count() const { return values_.size(); }
     static constexpr std::int64_t evaluations_kept = 16;
 
-    /// A plane of the model, which the first call computes.
+    /// Returns a plane of the model. The first call computes it.
     const Field& plane(ModelPlane plane);
 
 private:
     struct Kept {
         Field field;
         std::int64_t last_read = 0;
-        /// Cells at a greater distance count as unreachable.
+        /// Cells whose distance is greater count as unreachable.
         double reach = std::numeric_limits<double>::infinity();
     };
 
@@ -76,16 +76,17 @@ private:
     Team& team_;
     std::map<SurfaceValueId, Kept> values_;
     std::int64_t evaluation_ = 0;
-    std::unique_ptr<Paths> paths_;  ///< Made when the first distance is needed.
+    /// The data for distances. Made when the first distance is needed.
+    std::unique_ptr<Paths> paths_;
     std::map<ModelPlane, Field> planes_;
 };
 
 /// Finds the attribute that attr("name") reads. Fails if the points of the model have no attribute
-/// of that name.
+/// with that name.
 Result<const PointAttribute*> find_attribute(const std::string& name, const SurfaceMesh& mesh);
 
-/// The values of attr("name") in the cells, interpolated linearly between points. Fails
-/// like find_attribute().
+/// Returns the values of attr("name") in the cells, interpolated linearly between points. Fails in
+/// the same cases as find_attribute().
 Result<Field> attribute_plane(const std::string& name, const ModelCells& model,
                               Precision precision);
 

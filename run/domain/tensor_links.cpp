@@ -1,4 +1,4 @@
-// Converts between the order of memory and the order of the cells.
+// Converts between the order of cells in memory and the cells' own order.
 #include "run/domain/tensor_links.h"
 
 #include "run/domain/cell_planes.h"

@@ -15,13 +15,14 @@ public:
     /// The model must outlive the links. Throws std::bad_alloc.
     explicit TensorLinks(const ModelCells& model);
 
-    /// The links of the model's cells in the same order, then links of weight 0 to cells with which
-    /// a cell shares a triangle, but no edge.
+    /// The links of the model's cells in the same order, followed by links of weight 0. These lead
+    /// from each cell to the cells with which it shares a triangle but no edge.
     const Links& links() const { return links_; }
-    /// The same links with weights of gradients, computed by the first call. Throws std::bad_alloc.
+    /// Returns links() with weights of gradients, which the first call computes. Throws
+    /// std::bad_alloc.
     const Links& links_with_gradients() const;
-    /// The plane of tensor_weights(low, right, down), which has a number for each link. The
-    /// operands have the cells in memory order. Throws std::bad_alloc.
+    /// Computes the plane of tensor_weights(low, right, down), which has a number for each link.
+    /// The operands have the cells in the order of memory. Throws std::bad_alloc.
     Field weights(const Field& low, const Field& right, const Field& down) const;
 
 private:

@@ -21,9 +21,9 @@ namespace cascade {
 
 namespace {
 
-/// The length of the cube's sides, as a multiple of the triangles' edges: the default, which is
-/// also the smallest value, and the largest value. With many more edges, making the surface would
-/// take minutes.
+/// How many edges of triangles fit along a side of the cube: `usual_edges` by default, which is
+/// also the smallest number, and `most_edges` at most. With many more edges, making the surface
+/// would take minutes.
 constexpr double usual_edges = 50, most_edges = 100;
 /// The number of positions that are evaluated together. It is small enough for their values to stay
 /// in the caches.
@@ -33,7 +33,7 @@ constexpr std::size_t places_together = 256;
 struct Volume {
     NpyArray array;
     std::array<std::int64_t, 3> sides;
-    double element = 0;  ///< The length of an element if the array fills the cube.
+    double element = 0;  ///< The length of an element in an array that fills the cube.
 
     Volume(NpyArray read, double half)
         : array(std::move(read)),
@@ -85,8 +85,8 @@ public:
         return {};
     }
 
-    /// Sets values[k] to the value at points[k]. Values at points outside the arrays that fill the
-    /// cube are below 0.
+    /// Sets values[k] to the value at points[k]. If the formula reads arrays that fill the cube,
+    /// values outside of them are below 0.
     void at(std::span<const Vector3d> points, std::span<double> values) const {
         std::vector<double> depths(points.size(), std::numeric_limits<double>::infinity());
         const KnownValues known = [&](const Node& node, const auto&, std::span<double> own) {
@@ -96,7 +96,8 @@ public:
                 });
                 return true;
             }
-            if (node.is<TextId>()) return true;  // The array with this name is read below.
+            if (node.is<TextId>())
+                return true;  // The call of field() below reads the array with this name.
             if (!node.calls(Function::field)) return false;
             const Volume& volume = volumes_.at(text_of(node));
             const auto& places = literals_.reading(node.as<Call>()->detail).place;
@@ -112,7 +113,7 @@ public:
         }
     }
 
-    /// The length of the smallest element, or `otherwise` if the formula reads no arrays.
+    /// Returns the length of the smallest element, or `otherwise` if the formula reads no arrays.
     double element(double otherwise) const {
         double smallest = std::numeric_limits<double>::infinity();
         for (const auto& [text, volume] : volumes_) smallest = std::min(smallest, volume.element);
@@ -121,9 +122,9 @@ public:
     bool reads_volumes() const { return !volumes_.empty(); }
 
 private:
-    /// The position of a point in an array that fills the cube. Sets `depth` to the distance from
-    /// the nearest side of the array, in elements, if that is less than the present value of
-    /// `depth`. The distance is negative outside.
+    /// Returns the position of a point in an array that fills the cube. Reduces `depth` to the
+    /// distance from the nearest side of the array, in elements, if this distance is less. The
+    /// distance is negative outside the array.
     static FilePlace place_in_cube(const Volume& volume, const Vector3d& point, double& depth) {
         FilePlace place{0.5, 0.5, 0.5};
         const std::array along{point.x, point.y, point.z};

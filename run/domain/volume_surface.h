@@ -10,12 +10,12 @@
 
 namespace cascade {
 
-/// The surface on which the formula of the model is 0. The formula is above 0 inside. If the
-/// formula calls `field` without a position, the array of `field` fills the cube. The longest side
-/// of the array is then as long as the cube, and the other sides are centred. x runs along rows, y
-/// along columns and z along slices. The surface is then closed at the sides of the array, like a
-/// body (run/tissue/grown_body.h). Triangles are as large as the elements of the largest array,
-/// within limits. Fails if a file cannot be read.
+/// Makes the surface on which the formula of the model is 0. The formula is above 0 inside. If the
+/// formula calls `field` without a position, the array of `field` fills the cube: the longest side
+/// of the array is as long as the cube, and the other sides are centred. x runs along rows, y along
+/// columns and z along slices. Such a surface is closed at the sides of the array, like a body
+/// (run/tissue/grown_body.h). Triangles are as large as the smallest elements of all arrays, within
+/// limits. Fails if a file cannot be read.
 Result<SurfaceMesh> surface_of_formula(const ModelSettings& settings, const Literals& literals,
                                        const ModelAccess& access, const std::atomic<bool>& cancel);
 

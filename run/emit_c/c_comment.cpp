@@ -1,5 +1,5 @@
-// Blanks are inserted between the characters of comment marks and trigraphs. Backslashes and
-// unprintable characters become question marks.
+// Inserts blanks between the characters of comment marks and trigraphs. Replaces backslashes and
+// unprintable characters by question marks.
 #include "run/emit_c/c_comment.h"
 
 #include "core/utf8.h"

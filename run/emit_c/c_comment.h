@@ -6,8 +6,8 @@
 
 namespace cascade {
 
-/// The text as a single line for a C comment. Blanks are inserted between the characters of comment
-/// marks, line continuations and trigraphs. Unprintable characters become question marks.
+/// Returns the text as a single line for a C comment. Blanks are inserted between the characters of
+/// comment marks, line continuations and trigraphs. Unprintable characters become question marks.
 std::string c_comment(std::string_view text);
 
 }  // namespace cascade

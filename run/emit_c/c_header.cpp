@@ -1,5 +1,6 @@
-// Fills in the texts of run/emit_c/c_header_text.h, in which $ is replaced by the stage's name and
-// $$ by that name in capitals. Writes the tables, the struct and the functions in between.
+// Fills in the texts of run/emit_c/c_header_text.h, in which the stage's name replaces $, and the
+// same name in capitals replaces $$. Between these texts, writes the tables, the struct and the
+// functions.
 #include "run/emit_c/c_header.h"
 
 #include "core/plane.h"
@@ -23,7 +24,7 @@ std::string upper(std::string text) {
     return text;
 }
 
-/// A float literal of C. NaN and infinity become expressions.
+/// Writes a float literal of C. NaN and infinity become expressions.
 std::string c_number(float value) {
     if (std::isnan(value)) return "(0.0f / 0.0f)";
     if (std::isinf(value)) return value > 0 ? "(1.0f / 0.0f)" : "(-1.0f / 0.0f)";
@@ -67,7 +68,7 @@ public:
     }
 
 private:
-    /// The text with the names in place of $$ and $.
+    /// Puts the names in place of $$ and $.
     std::string filled(std::string_view pattern) const {
         std::string text;
         for (std::size_t k = 0; k < pattern.size(); ++k) {
@@ -154,7 +155,7 @@ private:
     }
 
     std::string constants() const {
-        // Includes the padding of rows and the halo.
+        // The number of cells includes the padding of rows and the halo.
         const auto cells = static_cast<std::size_t>(layout_.size());
         const std::size_t plane_bytes = cells * sizeof(float);
         const std::size_t mask_bytes = cells * compiled_.masks.size();
@@ -190,7 +191,7 @@ private:
         return text;
     }
 
-    /// The members of the struct that are arrays of planes, with the lengths of the arrays, in the
+    /// Returns the names and lengths of the struct's members that are arrays of planes, in their
     /// order in memory.
     std::vector<std::pair<std::string, std::size_t>> plane_tables() const {
         const std::size_t species = compiled_.species.size();
@@ -343,8 +344,8 @@ static inline void $_step(struct $ *s) {
         const bool needs_time = uses("(float)t") || uses("(float)(t +");
         const std::string length = compiled_.speed
                                        ? fmt::format("(double)s->numbers[{}]", *compiled_.speed)
-                                       // If the length of steps varies by cell, there is no common
-                                       // time.
+                                       // If the length of steps varies by cell, the cells have no
+                                       // common time, and the length counts as 0.
                                        : "0";
         if (needs_time || uses("length)")) {
             text += fmt::format("    const double length = {};\n", length);

@@ -1,4 +1,5 @@
-// The fixed parts of the C headers of compiled stages. $$ is replaced by NAME, and $ by name.
+// The fixed parts of the C headers of compiled stages. In them, $ stands for the name of the stage,
+// and $$ for the same name in capitals.
 #pragma once
 
 #include <string_view>

@@ -1,5 +1,5 @@
 // Binds the plans of a stage in the same way as a run does, although no planes exist. Then writes
-// each pass as C statements.
+// each bound pass as C statements.
 #include "run/emit_c/c_stage.h"
 
 #include "core/overloaded.h"
@@ -17,7 +17,7 @@ namespace {
 
 using SpeciesPlane = StepProblem::SpeciesPlane;
 
-/// A C literal for a number. Reading the literal gives exactly the same number.
+/// Writes a C literal for a number. Reading the literal gives exactly the same number.
 std::string c_number(double value) {
     const std::string text = fmt::format("{:.17g}", value);
     return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
@@ -78,8 +78,8 @@ private:
                                    system_.species_count() +
                                species);
     }
-    /// The rules at the sides of a plane that is read at neighbours. A species of this step has no
-    /// such rules here.
+    /// Returns the rules at the sides of a plane that is read at neighbours. The plane must not be
+    /// a species of this step, whose rules species_rules() returns.
     std::string rules_of(const PlaneSource& source) {
         const auto* const item = std::get_if<StageItem>(&source);
         if (item != nullptr && item->stage != k_ &&
@@ -126,8 +126,8 @@ private:
         return text + "    }\n";
     }
 
-    /// The statements of a plan that is not part of a step. `result(k)` returns the plane of result
-    /// k.
+    /// Writes the statements of a plan that is not part of a step. `result(k)` returns the plane of
+    /// result k.
     template <typename ResultPlane>
     std::string plan_text(const StepPlan& plan, const ResultPlane& result) {
         const StepProblem problem = bind_plan(plan, {}, context());
@@ -141,7 +141,8 @@ private:
         return plan.aggregates > 0 ? "    {\n" + text + "    }\n" : text;
     }
 
-    /// The sources of values, as in a run. The planes of stages are empty.
+    /// Returns the sources of the values that plans read, as in a run. The stages have no planes
+    /// here.
     BindingContext context() const {
         return {states_, request_.files, 0, program_.domain.grid, Precision::single,
                 0,       request_.metric};
@@ -154,7 +155,7 @@ private:
             const ItemId item = plan.results[number];
             const StageItem source{k_, item};
             if (!stage_.uniform[item]) return tables_.plane(source);
-            // The item is uniform, so the value of the first cell is used.
+            // The item is uniform, so the value of the first cell is its value.
             const std::string plane = tables_.temporary(plan.temporaries + taken.size());
             taken.push_back(fmt::format("    {} = {}[0];\n", tables_.number(source), plane));
             return plane;
@@ -167,7 +168,8 @@ private:
         }
     }
 
-    /// Must be called after all starting values have been described.
+    /// Must be called after all starting values have been described, because the values of sides
+    /// may read them.
     void describe_sides() {
         for (const SpeciesId species : stage_.sides.ids()) {
             for (std::size_t side = 0; side < side_count; ++side) {
@@ -191,7 +193,8 @@ private:
         }
     }
 
-    // The following functions write a step: the sweeps of its scheme, bound as in a run.
+    // The following functions write a step, which consists of the sweeps of its scheme, bound as in
+    // a run.
 
     void describe_step() {
         std::vector<StepPlan> plans;
@@ -217,8 +220,8 @@ private:
         }
     }
 
-    /// Writes a pass of a bound plan. `written` returns the plane of each result that is not a
-    /// temporary.
+    /// Writes a pass of a bound plan. `written` returns the plane for each result that is not
+    /// stored in a temporary plane.
     template <typename Written>
     std::string pass_text(const StepProblem& problem, std::size_t number, const Pass& pass,
                           bool starts, const Written& written) {
@@ -265,7 +268,7 @@ private:
     }
 
     /// Whether a later sweep of the same step reads the plane at neighbours. If only the next step
-    /// does, that step itself fills the halo of the old values.
+    /// does, the halo need not be filled now, because each step fills the halos of old values.
     bool is_read_at_neighbours_later(const StepProblem& problem, std::size_t number,
                                      SpeciesPlane plane) const {
         for (std::size_t later = number + 1; later < problem.passes.size(); ++later) {
@@ -295,14 +298,15 @@ private:
         };
         for (const StepProblem::ChangingUniform& changing : bound.changing) {
             if (changing.slot != slot) continue;
-            // Step and time are 0 at the start of a stage.
+            // The number of steps and the time are 0 at the start of a stage.
             const bool is_aggregate = std::holds_alternative<AggregateId>(changing.value);
             return starts && !is_aggregate ? "0" : std::visit(text, changing.value);
         }
         return tables_.number(std::get<StageItem>(source));
     }
 
-    /// Records `speed` and `frozen`, which the code around the statements uses.
+    /// Records where `speed` and `frozen` are in the table of numbers. The code around the
+    /// statements uses them.
     void note_settings() {
         if (stage_.uniform[system_.speed_item()]) {
             result_.speed = tables_.number_place({k_, system_.speed_item()});

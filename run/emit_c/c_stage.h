@@ -17,14 +17,16 @@
 
 namespace cascade {
 
-/// By stage and item, the values of uniform items that can be computed without any field.
+/// Contains, by stage and item, the values of uniform items that can be computed without any field.
 using KnownNumbers = std::vector<IdVector<ItemId, std::optional<float>>>;
 
-/// A row of a table. `identifier` is the name of its index in C, as in NAME_PLANE_BETA.
+/// A row of a table in the header. `identifier` is the name in C of the row's index, as in
+/// NAME_PLANE_BETA.
 struct CEntry {
     std::string identifier;
     std::string meaning;  ///< A description for the comment in the header.
-    /// Whether the program that includes the header must set the value, because it is not computed.
+    /// Whether the program that includes the header must set the value, because the functions of
+    /// the header do not compute it.
     bool is_given = false;
 };
 
@@ -33,8 +35,9 @@ struct CNumber : CEntry {
 };
 
 struct CPlane : CEntry {
-    std::string data;  ///< The array of the object file with the values of the plane. Empty if
-                       ///< there is none.
+    /// The name of the array in the object file that has the values of the plane. Empty if there is
+    /// no such array.
+    std::string data;
 };
 
 /// A constant array in the object file, with one number for each cell.
@@ -57,36 +60,37 @@ struct CStage {
     std::vector<CEntry> masks;
     std::vector<CData> data;
     std::vector<CKernel> kernels;
-    /// For each species, the kinds of its sides. Empty if the boundary of the domain applies to all
-    /// species.
+    /// For each species, the kinds of its sides. Empty if all species have the boundary of the
+    /// domain.
     std::vector<std::array<SideKind, side_count>> sides;
     std::uint32_t side_planes = 0;  ///< The number of planes for values that vary along sides.
     std::uint32_t scratch_registers = 0;
     std::uint32_t temporaries = 0;
     std::uint32_t step_aggregates = 0;
-    bool reduces = false;              ///< Whether there are aggregates over the domain.
+    bool reduces = false;  ///< Whether the stage reads sums, means or extremes over the domain.
     std::optional<std::size_t> speed;  ///< The index of `speed` in `numbers`, if it is uniform.
     /// The index of `frozen` in `numbers`, if it is uniform and not known to be 0.
     std::optional<std::size_t> frozen;
     std::string start;  ///< Statements that compute the starting values.
-    /// Statements of a step, up to the point where old and new registers are exchanged.
+    /// Statements of a step, except the exchange of old and new registers at its end.
     std::string step;
 };
 
 /// The input of describe_c_stage().
 struct CStageRequest {
-    /// The program, in which the parameters of CompileRequest::per_cell vary.
+    /// The program, in which the parameters of CompileRequest::per_cell vary by cell.
     const Program& program;
     std::uint32_t stage = 0;
-    const KnownNumbers& numbers;  ///< The known numbers of all stages up to this one.
+    /// The known numbers of all stages up to and including this stage.
+    const KnownNumbers& numbers;
     const InputFiles& files;
     const std::vector<Field>& metric;
     const Scheme& scheme;
     std::string name;
 };
 
-/// Fails if the stage reads a plane at neighbours and the sides of another stage apply to this
-/// plane.
+/// Describes a stage. Fails if the stage reads, at neighbours, a species of another stage that has
+/// sides of its own.
 Result<CStage> describe_c_stage(const CStageRequest& request);
 
 }  // namespace cascade

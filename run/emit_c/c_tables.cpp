@@ -1,5 +1,5 @@
-// Rows are added to tables when operands are first read. Identifiers are upper-case names, with a
-// number added if the name is taken.
+// A row is added to a table when its operand is read for the first time. Identifiers are upper-case
+// names. If a name is taken, a number is added to it.
 #include "run/emit_c/c_tables.h"
 
 #include "core/check.h"
@@ -16,7 +16,7 @@ namespace cascade {
 
 namespace {
 
-/// A name as part of an upper-case C identifier. u[2] becomes U_2.
+/// Returns a name as part of an upper-case C identifier. u[2] becomes U_2.
 std::string capitals(std::string_view name) {
     std::string text;
     for (const char c : name) {
@@ -42,7 +42,7 @@ void add_entry(std::vector<Entry>& table, Entry entry, std::string_view name) {
     table.push_back(std::move(entry));
 }
 
-/// The index of a source in `known`. If the source is new, appends it and calls `add`.
+/// Returns the index of a source in `known`. If the source is new, appends it and calls `add`.
 template <typename Source, typename Add>
 std::size_t place_of(std::vector<Source>& known, const Source& source, const Add& add) {
     const auto place = std::find(known.begin(), known.end(), source) - known.begin();

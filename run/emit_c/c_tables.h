@@ -20,13 +20,13 @@ public:
 
     /// number() and plane() return C expressions, such as `s->numbers[3]`.
     std::string number(StageItem item);
-    std::string plane(const PlaneSource& source);  ///< For a register, its old values.
+    std::string plane(const PlaneSource& source);  ///< For a register, the plane of its old values.
     std::string mask(StageItem item);
     std::string temporary(std::size_t number);
-    /// The name of a kernel's function. Equal kernels have the same function.
+    /// Returns the name of a kernel's function. Equal kernels have the same function.
     std::string kernel(const CellKernel& kernel);
 
-    /// The row of an item in the table of numbers.
+    /// Returns the row of an item in the table of numbers.
     std::size_t number_place(StageItem item);
     /// The items in the table of masks.
     const std::vector<StageItem>& masks() const { return masks_; }
@@ -43,7 +43,7 @@ private:
     const Program& program_;
     const System& system_;
     CStage& stage_;
-    /// Uniform items whose values depend on cells. The compiled program computes them.
+    /// Uniform items whose values depend on values in cells. The compiled program computes them.
     std::vector<ItemId> late_;
     // The items and sources in the tables, in the order of the rows.
     std::vector<StageItem> numbers_, masks_;

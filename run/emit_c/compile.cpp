@@ -24,7 +24,7 @@ namespace cascade {
 
 namespace {
 
-/// Whether a formula reads a number that is unknown.
+/// Whether a formula reads a value that is not in `numbers`.
 bool reads_unknown(const Formula& formula, std::uint32_t stage, const KnownNumbers& numbers,
                    const Program& program) {
     return std::any_of(formula.nodes.begin(), formula.nodes.end(), [&](const Node& node) {
@@ -38,7 +38,7 @@ bool reads_unknown(const Formula& formula, std::uint32_t stage, const KnownNumbe
 }
 
 /// Computes the uniform starting values of stages 0 … `last` with the interpreter on a single cell.
-/// A value that depends on an unknown value is unknown, too.
+/// If a value depends on an unknown value, it is unknown, too.
 KnownNumbers known_numbers(const Program& program, std::uint32_t last) {
     KnownNumbers numbers;
     std::vector<StageState> states;
@@ -60,7 +60,7 @@ KnownNumbers known_numbers(const Program& program, std::uint32_t last) {
             computed[plan.results[r]] = values[r].at(0, 0);
             states[k].numbers[plan.results[r]] = values[r].at(0, 0);
         }
-        // The items are in the order of evaluation, so operands come first.
+        // The items are in the order of evaluation, so an item comes after its operands.
         for (const ItemId item : stage.order) {
             if (!reads_unknown(stage.items[item], k, numbers, program))
                 known[item] = computed[item];
@@ -69,7 +69,7 @@ KnownNumbers known_numbers(const Program& program, std::uint32_t last) {
     return numbers;
 }
 
-/// Marks parameters as varying, so that the kernel reads a plane for each of them.
+/// Marks parameters as varying by cell, so that kernels read a plane for each of them.
 Result<void> make_per_cell(Program& program, std::uint32_t k,
                            const std::vector<std::string>& names) {
     const System& system = program.system_of(k);
@@ -92,8 +92,8 @@ Result<void> make_per_cell(Program& program, std::uint32_t k,
     return {};
 }
 
-/// A text as a C identifier. Invalid characters become '_'. If the text begins with a digit, '_' is
-/// added before it.
+/// Turns a text into a C identifier. Invalid characters become '_'. If the text is empty or begins
+/// with a digit, '_' is added before it.
 std::string c_identifier(const std::string& text) {
     std::string name;
     for (const char c : text) {
@@ -104,10 +104,10 @@ std::string c_identifier(const std::string& text) {
     return name;
 }
 
-/// The scheme of a step, which must have a fixed length. `asked_solver` is true if the option
-/// --solver has chosen the solver. This may be the only reason why steps have no fixed
-/// length, and the error then says so. `parts` is the number of parts into which a step of Euler's
-/// method is divided.
+/// Returns the scheme of a step. Fails if steps have no fixed length. If `asked_solver` is true,
+/// the option --solver has chosen the solver, which may be the only reason for the failure, and the
+/// error then says so. `parts` is the number of parts into which a step of Euler's method is
+/// divided.
 Result<Scheme> fixed_scheme(const Program& program, std::uint32_t k,
                             std::optional<std::uint32_t> stages, std::uint32_t parts,
                             bool asked_solver) {
@@ -164,7 +164,7 @@ Result<Scheme> fixed_scheme(const Program& program, std::uint32_t k,
                        takes_speed_by_cell(stage.time.solver), stages.value_or(3));
 }
 
-/// The program after the sizes of its stages have been applied.
+/// The program after the sizes of its stages have been found and applied.
 struct SizedStages {
     Program program;
     /// The number of parts into which a step of the stage is divided. 0 and 1 mean that steps are
@@ -188,13 +188,13 @@ Result<SizedStages> with_sizes(Script& script, const std::string& asked,
         if (auto started = simulation.start_stage(k); !started)
             return tl::unexpected(started.error());
     }
-    (void)step_work(simulation, *stage);  // Called because it initialises the time of the stage.
+    (void)step_work(simulation, *stage);  // This call initialises the time of the stage.
     if (result.program.stages[*stage].time.solver == Solver::euler)
         result.parts = simulation.state(*stage).time.stages;
     return result;
 }
 
-/// Fails if the header cannot express the domain or the stage.
+/// Fails if a header cannot express the domain or the stage.
 Result<void> check_header_knows(const Program& program, std::uint32_t stage) {
     if (program.domain.model) {
         return failure("a stage on a model cannot be compiled to an object file",

@@ -16,10 +16,11 @@ namespace cascade {
 inline constexpr std::int64_t most_compiled_stages = 99;
 
 struct CompileRequest {
-    /// A name, or a number, counted from 1. Empty: the first stage.
+    /// The name of a stage, or its number, counted from 1. Empty: the first stage.
     std::optional<std::string> stage = {};
-    std::vector<std::string> per_cell = {};  ///< Uniform parameters that nevertheless get a plane.
-    std::string target = {};                 ///< The name of a processor. Empty: this machine's.
+    /// Names of parameters that get a plane although they are uniform.
+    std::vector<std::string> per_cell = {};
+    std::string target = {};  ///< The name of a processor. Empty: the processor of this machine.
     /// The prefix of the functions' names. Empty: derived from the script's name.
     std::string function_name = {};
     /// The number of stages of a step by the solvers rkl1 and rkl2. Odd, and at least 3.

@@ -1,5 +1,5 @@
-// On a model, fields are stored in the order that is fastest for steps, and written in the order of
-// files.
+// On a model, fields have the order of memory, which is fastest for steps. They are converted to
+// the order in which files list the cells.
 #include "run/pictures/array_moments.h"
 
 #include "core/enough_memory.h"

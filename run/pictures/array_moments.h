@@ -1,4 +1,4 @@
-// The moments of a run as arrays of numbers, for the formats that hold fields over time.
+// The moments of a run as arrays of numbers, for file formats that contain fields over time.
 #pragma once
 
 #include "core/growing_file.h"
@@ -27,15 +27,17 @@ struct ArrayMoment {
 
 ArrayMoment array_moment(const Simulation& simulation);
 
-/// The numbers of cells along each axis of an array, the slowest axis first: slices (of a volume),
-/// rows (unless there is only one) and columns, or the cells of a model.
+/// Returns the number of cells along each axis of an array, the slowest axis first: slices (only of
+/// a volume), rows (only if there are several) and columns. On a model, returns the number of all
+/// cells.
 std::vector<std::int64_t> sides_of_cells(const Simulation& simulation);
 
-/// Appends the cells of a field, in the order of the axes and in the run's precision. If the field
-/// is empty, appends NaN for each cell.
+/// Appends the values of a field in all cells, in the order of the axes and in the run's precision.
+/// If the field is empty, appends NaN for each cell.
 void append_cells(std::string& bytes, const Field& field, const Simulation& simulation);
 
-/// Creates a file that begins with `bytes`. It has no name until GrowingFile::appear().
+/// Creates a file that begins with `bytes`. The file gets its name when GrowingFile::appear() is
+/// called.
 Result<std::unique_ptr<GrowingFile>> begin_growing(const std::filesystem::path& path,
                                                    std::string_view bytes);
 

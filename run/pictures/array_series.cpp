@@ -1,5 +1,5 @@
-// A file gets its name with the first moment. For each further moment, first the data is appended
-// and then the length in the header is updated. So the file is always valid.
+// A file gets its name when the first moment is added. For each further moment, first the data is
+// appended, and then the length in the header is updated. So the file is valid at any time.
 #include "run/pictures/array_series.h"
 
 #include "core/csv.h"
@@ -72,7 +72,7 @@ private:
         return npy_head(type_, shape, longest - fmt::formatted_size("{}", count));
     }
 
-    /// The contents of NAME.json, up to the list of moments.
+    /// Writes NAME.json up to the list of moments.
     std::string describe(const Simulation& simulation,
                          const std::vector<std::int64_t>& sides) const {
         std::vector<std::string> axes = {"slice", "row", "column"};
@@ -103,14 +103,15 @@ private:
                                {"time", number(moment.time)}});
     }
 
-    /// Prints JSON. File names may contain bytes that are not UTF-8.
+    /// Writes JSON. Bytes of file names that are not UTF-8 are replaced.
     static std::string written(const Json& json) {
         return json.dump(-1, ' ', false, Json::error_handler_t::replace);
     }
 
     static constexpr std::string_view end_of_list = "\n ]\n}\n";
 
-    /// The type of the elements, and the shape without the axis of time.
+    /// The type of the elements, and the sizes of the axes other than time, in the words of the
+    /// header.
     std::string type_, shape_;
     std::unique_ptr<GrowingFile> array_, list_;
 };

@@ -1,4 +1,4 @@
-// Draws a body by the code for bodies below crawling cells, with no cells on it.
+// Draws a body with the code that draws bodies below crawling cells, but with no cells on it.
 #include "run/pictures/body_picture.h"
 
 #include "core/counted_cells.h"
@@ -36,8 +36,8 @@ std::shared_ptr<const SurfaceMesh> body_of(const Field& values, const DomainMask
             value = std::isnan(value) ? -magnitude : std::clamp(value, -magnitude, magnitude);
         },
         inside);
-    // The longest edges, in cells. With edges of this length, the surface in any grid has few
-    // triangles.
+    // The length, in cells, of the longest edges. With edges of this length, a surface in any grid
+    // has few triangles.
     constexpr double coarsest = 64;
     for (double edge = 1; edge < coarsest; edge *= 2) {
         auto body = grown_body(inside, boundary, never_cancelled, edge);

@@ -16,11 +16,11 @@
 
 namespace cascade {
 
-/// The closed surface around the cells with values above 0, in the script's unit of length
-/// (run/tissue/grown_body.h). Cells with NaN and cells outside of `mask` (null: no mask) count as
-/// outside the body. Triangles are as large as cells, or larger if the surface would otherwise
-/// exceed the limit of implicit_surface(). The surface is empty if no value is above 0. Throws
-/// std::bad_alloc.
+/// Makes the closed surface around the cells with values above 0, in the script's unit of length
+/// (run/tissue/grown_body.h). Cells with NaN and cells outside of `mask` count as outside the body.
+/// If `mask` is null, there is no mask. Triangles are as large as cells, or larger if the surface
+/// would otherwise exceed the limit of implicit_surface(). The surface is empty if no value is
+/// above 0. Throws std::bad_alloc.
 std::shared_ptr<const SurfaceMesh> body_of(const Field& values, const DomainMask* mask,
                                            Boundaries boundary);
 

@@ -1,4 +1,5 @@
-// In scripts, models are upright and have length 1. Files use the coordinates of the model's file.
+// In scripts, models are upright and their longest side is 1. Files use the coordinates of the
+// model's file.
 #include "run/pictures/cell_files.h"
 
 #include "core/counted.h"
@@ -47,10 +48,11 @@ private:
     Stance stance_;
 };
 
-/// Facets in files are as fine as facets in a picture with this height in pixels.
+/// In files, facets are as fine as in a picture with this height in pixels, and with this value of
+/// `detail`.
 constexpr double pixels_of_files = 200, detail_of_files = 0.5;
 
-/// The objects in a picture, in the coordinates of the model's file.
+/// Returns the objects of a picture in the coordinates of the model's file.
 Instances things_in_file(const GrownCells& cells) {
     const auto model = cells.simulation.domain().shared_model();
     const FilePlaces in_file(model.get());
@@ -77,7 +79,7 @@ public:
         colours.coat = drawn.coat->painted();
     }
 
-    /// The colours of the mesh's points. If there is a coat, the mesh gets more points.
+    /// Returns the colours of the mesh's points. If there is a coat, refines the mesh first.
     std::vector<Colour> colour_points() {
         if (!filter_) return std::vector<Colour>(mesh.points.size(), colours.colour);
         RefinedMesh fine = refined_for_colours(mesh, model_.spread().cells);
@@ -96,7 +98,7 @@ private:
     std::optional<CellFilter> filter_;
 };
 
-/// Notes that say which programs cannot read the copies in a file.
+/// Returns notes about programs that cannot read the copies in a file.
 std::vector<std::string> notes_on(const std::filesystem::path& path, std::size_t copies,
                                   bool is_merged) {
     if (is_merged || copies == 0 || !is_of_format(path, FileFormat::glb)) return {};

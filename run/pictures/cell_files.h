@@ -24,8 +24,8 @@ struct GrownCells {
 /// and .obj files contain the cells as objects, as pictures show them. .npz and .cells.vtp files
 /// contain all values of the cells. A .glb file for which options.is_baked() is true contains only
 /// the model, with maps that show the objects and contain `texts`. `texture` replaces the model's
-/// texture coordinates unless it is empty. Throws std::bad_alloc. Fails like the writers of
-/// export/.
+/// texture coordinates unless it is empty. Throws std::bad_alloc. Fails in the same cases as the
+/// writers of export/.
 Result<WrittenFiles> write_cells(const std::filesystem::path& path, const GrownCells& cells,
                                  const MeshTexture& texture, const ModelFileOptions& options,
                                  const PngTexts& texts);

@@ -16,26 +16,27 @@ using InOrder = std::function<std::vector<double>(const Field&)>;
 
 struct CellLook {
     std::size_t channels = 1;
-    std::vector<float> values;  ///< `channels` numbers for each cell, cell after cell.
+    /// The numbers of all cells, cell after cell. Each cell has `channels` numbers.
+    std::vector<float> values;
     PlaceColour colour;
     ValueColours colours;
-    /// A height for each cell, in lengths of the model or plane. May be empty.
+    /// The height of each cell, in lengths of the model or plane. May be empty.
     std::vector<float> heights;
     Material material;
-    /// Whether heights move the surface. Otherwise they only bend its normals.
+    /// Whether heights move the surface. If not, they only bend its normals.
     bool displaces = false;
 
-    /// The canvas contains either one number for each cell, which `range` maps to the palette, or
-    /// red, green and blue.
+    /// The canvas contains either one number for each cell, which is converted to a colour by
+    /// `range` and `palette`, or red, green and blue.
     CellLook(const Canvas& canvas, ValueRange range, const Palette& palette,
              const InOrder& in_order);
 
-    /// The data for painting. They refer to this object. The occlusion is missing because it
-    /// depends on the surface.
+    /// Returns the data for painting, which refer to this object. The occlusion is missing, because
+    /// it depends on the surface.
     PaintedCells painted() const {
         return {channels, values, colour, heights, material.cells(), displaces, colours};
     }
-    /// The data for painting without heights and material.
+    /// Returns the data for painting without heights and material.
     PaintedCells painted_alone() const { return {channels, values, colour, {}}; }
 };
 

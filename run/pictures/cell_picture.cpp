@@ -1,6 +1,6 @@
 // Blurs the values of cells to a series of levels, like a mipmap. The blur of each level is twice
-// as wide as in the level before. A sample mixes the two levels whose blur is nearest to the
-// width of the surface that the sample covers.
+// as wide as the blur of the level before. A sample mixes the two levels whose blur is nearest to
+// the width of surface that the sample covers.
 #include "run/pictures/cell_picture.h"
 
 #include "core/check.h"
@@ -17,11 +17,12 @@ namespace cascade {
 
 namespace {
 
-/// If the cosine between a ray and the normal is smaller, it counts as this value.
+/// The smallest cosine between a ray and a normal. A smaller cosine is replaced by this value.
 constexpr float least_cosine = 0.1F;
 
-/// The variance of the filter along a direction, in squares of the distance between cells: s² / 2
-/// times the mean of (d / s)² under the filter's weights, where s is twice that distance.
+/// The variance of the filter along a direction, in squares of the distance between cells. It is s²
+/// / 2 times the mean of (d / s)² under the filter's weights, where s is twice the distance between
+/// cells.
 constexpr double filter_variance = 2 * (1.0 / 28) / 0.15;
 
 bool is_finite(const Colour& colour) {
@@ -42,8 +43,8 @@ Colour mix(const Colour& a, const Colour& b, float part) {
     return result;
 }
 
-/// The numbers of a cell: reflected light, and height in units of the filter's radius. If there is
-/// a material, also emitted light, roughness and metalness.
+/// The numbers of a cell: reflected light, and the height in units of the filter's radius. If there
+/// is a material, also emitted light, roughness and metalness.
 struct CellState {
     static constexpr std::size_t height = 3, glow = 4, roughness = 7, metalness = 8;
     explicit CellState(const PaintedCells& look)
@@ -70,21 +71,22 @@ struct CellState {
     }
 };
 
-/// Level 0 contains the unfiltered cells. Level k ≥ 1 is blurred so that blur and filter together
-/// have a standard deviation of 2^k / 2 distances between cells. A sample 2^k distances wide has
-/// the same standard deviation.
+/// The numbers of all cells in each level. Level 0 is not blurred. Level k ≥ 1 is blurred so much
+/// that blur and filter together have a standard deviation of 2^k / 2 distances between cells. A
+/// sample that is 2^k distances wide has the same standard deviation.
 using Levels = std::vector<std::vector<float>>;
 
-/// The level for a sample that covers a square with this side, in distances between cells.
+/// Returns the level for a sample that covers a square of the surface. `side` is the side of the
+/// square in distances between cells.
 float level_of(float side) {
     return side > 1 ? static_cast<float>(std::log2(static_cast<double>(side))) : 0.0F;
 }
 
-/// Adds levels above level 0, up to `highest`.
+/// Adds the levels that follow level 0, up to and including `highest`.
 void add_levels(const SurfaceCells& cells, const CellState& parts, float highest, Levels& levels,
                 Team& team) {
-    // No blur wider than the surface is needed. In distances between cells, the surface is as wide
-    // as the square root of the number of cells.
+    // The blur need not be wider than the surface. In distances between cells, the surface is as
+    // wide as the square root of the number of cells.
     const double widest = std::log2(static_cast<double>(cells.places.size())) / 2;
     const double count = std::ceil(std::min<double>(highest, widest));
     double variance = 0;
@@ -104,7 +106,7 @@ struct Ground {
     /// Empty if the mesh is not refined.
     std::span<const TriangleOrigin> origins;
 
-    /// The position on the cells' mesh at which a ray hits the drawn mesh.
+    /// Returns the position on the cells' mesh at which a ray hits the drawn mesh.
     SurfacePlace place_of(const Hit& hit) const {
         const auto u = static_cast<double>(hit.u), v = static_cast<double>(hit.v);
         const std::array<double, 3> weights = {1 - u - v, u, v};
@@ -124,7 +126,8 @@ public:
           levels_(levels),
           spacing_(spacing) {}
 
-    /// The colour at a position at close range, from filtered values.
+    /// Returns the colour at a position that is seen at close range. The values are filtered before
+    /// they are coloured.
     Colour light_of_cell(const SurfacePlace& place) const {
         std::vector<CellShare> shares;
         filter_.shares(place, shares);
@@ -152,7 +155,7 @@ public:
     }
 
 private:
-    /// The side of the square of surface that a sample covers, in distances between cells.
+    /// Returns the side of the square of surface that a sample covers, in distances between cells.
     float side_of(const Sight& sight) const {
         const TriangleMesh& mesh = ground_.mesh;
         const auto& [a, b, c] = mesh.triangles[sight.hit.triangle];
@@ -193,7 +196,7 @@ private:
         }
     }
 
-    /// One of the cells' numbers at a position, mixed from two levels.
+    /// Returns one of the cells' numbers at a position, mixed from two levels.
     template <typename Share>
     float state_at(const std::vector<Share>& shares, float level, std::size_t number) const {
         const auto below = static_cast<std::size_t>(level);
@@ -244,8 +247,8 @@ private:
     float spacing_;
 };
 
-/// The opacity where a ray hits the surface. It is computed only from the cells next to that point,
-/// however far away the camera is. So holes have sharp edges, as they have in GLB files.
+/// Computes the opacity where a ray hits the surface. The opacity depends only on the cells next to
+/// that point, even if the camera is far away. So holes have edges as sharp as in GLB files.
 class Opacity {
 public:
     Opacity(std::span<const float> of_cells, const CellFilter& filter, const Ground& ground)
@@ -257,7 +260,8 @@ public:
         float sum = 0;
         for (const CellShare& share : shares) sum += share.weight * of_cells_[share.cell];
         if (is_cut_) return sum < 0.5F ? 0 : 1;
-        // The weights sum to 1 except for rounding errors, so a smaller sum means 0.
+        // A sum that is smaller than this counts as 0, because rounding errors make the sum of
+        // weights differ from 1.
         constexpr float little = 1e-3F;
         return sum < little ? 0 : sum > 1 - little ? 1 : sum;
     }
@@ -269,8 +273,8 @@ private:
     bool is_cut_;
 };
 
-/// The width of the largest square of surface that a sample of the picture covers, in lengths of
-/// the mesh.
+/// Returns the width of the largest square of surface that a sample of the picture covers, in
+/// lengths of the mesh.
 float widest_side(const TriangleMesh& mesh, const DrawOptions& options) {
     const Camera camera(mesh, options.view, options.width, options.height);
     float farthest = 0;
@@ -281,7 +285,7 @@ float widest_side(const TriangleMesh& mesh, const DrawOptions& options) {
 
 }  // namespace
 
-/// The surface moved by heights, which is drawn instead of the original.
+/// The surface that heights have moved. It is drawn in place of the original surface.
 struct CellScene::Raised {
     std::vector<float> heights;
     RefinedMesh fine;

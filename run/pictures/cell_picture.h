@@ -21,13 +21,13 @@ public:
     CellScene(const SurfaceMesh& mesh, const SurfaceCells& cells, Team& team);
     ~CellScene();
 
-    /// Draws a picture. At close range, values are filtered and then coloured. If a sample covers
-    /// more than a cell, cells are coloured first, and their colours are blurred by diffusion to
-    /// the width of the sample. Sets `round_shadows` of the options. Bumps change the shading but
-    /// not the outline. `copies` are drawn on the surface, in the coordinates of drawn(). If
-    /// look.displaces is true, heights move the surface, but not the copies. The moved surface is
-    /// stored for the next picture with the same heights. The picture does not depend on the number
-    /// of threads. Throws std::bad_alloc.
+    /// Draws a picture. At close range, values are filtered first and coloured afterwards. If a
+    /// sample covers more than a cell, cells are coloured first, and their colours are blurred by
+    /// diffusion to the width of the sample. Sets `round_shadows` of the options. Bumps change the
+    /// shading but not the outline. `copies` are drawn on the surface, in the coordinates of
+    /// drawn(). If look.displaces is true, heights move the surface, but not the copies. The moved
+    /// surface is stored for the next picture with the same heights. The picture does not depend on
+    /// the number of threads. Throws std::bad_alloc.
     Image draw(const PaintedCells& look, DrawOptions options, Team& team,
                const Instances* copies = nullptr);
 
@@ -44,7 +44,7 @@ private:
     DrawnMesh drawn_;
     RayCaster caster_;
     CellFilter filter_;
-    /// The surface moved by heights, from the last picture in which heights moved it.
+    /// The surface that heights moved in the last picture with such heights.
     std::unique_ptr<const Raised> raised_;
     float spacing_ = 0;  ///< The distance between cells, in lengths of the mesh.
 };

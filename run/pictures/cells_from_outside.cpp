@@ -11,17 +11,19 @@ namespace cascade {
 
 namespace {
 
-/// Rays begin at this distance from the surface, so that they do not hit the surface where they
-/// begin.
+/// Rays begin at this distance from the surface, so that they do not hit it at their own
+/// beginnings.
 constexpr float clearance = 1e-5F;
 
 Vector3d in_double(const Vector3& a) {
     return {static_cast<double>(a.x), static_cast<double>(a.y), static_cast<double>(a.z)};
 }
 
-/// The largest distance of any part of a copy from the surface. Copies may be above the surface.
+/// Returns a distance from the surface that no part of a copy exceeds. It is twice the largest
+/// distance in any copy between the copy's position and a corner of its box, because copies may be
+/// above the surface.
 float farthest_of(const Instances& copies) {
-    std::vector<Vector3> corners;  // The farthest corner of each mesh's box, along each axis.
+    std::vector<Vector3> corners;  // For each mesh, the largest absolute value of each coordinate.
     for (const TriangleMesh& mesh : copies.meshes) {
         Vector3 corner;
         for (const Vector3& p : mesh.positions) {

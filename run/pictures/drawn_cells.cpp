@@ -1,4 +1,5 @@
-// Sizes and directions are formulas of the picture block. They are evaluated in all cells together.
+// Sizes and directions of cells are formulas of the picture block. They are evaluated in all cells
+// together.
 #include "run/pictures/drawn_cells.h"
 
 #include "core/check.h"
@@ -27,7 +28,7 @@ namespace cascade {
 
 namespace {
 
-/// The longest edge of facets. It is so long that it limits nothing, because facets only have to
+/// The longest edge of facets. It is so long that it has no effect, because facets only have to
 /// follow the shape.
 constexpr double longest_facet = 2 * largest_of_shape;
 
@@ -37,8 +38,8 @@ struct Measure {
 };
 constexpr std::array<std::string_view, 4> measure_names{"width", "length", "height", "tilt"};
 
-/// The values of numeric settings of the picture block, in the order of the cells' numbers. There
-/// are no values for a missing setting.
+/// Returns the values of numeric settings of the picture block, in the order of the cells' numbers.
+/// For a missing setting, returns no values.
 std::vector<std::vector<double>> numbers_of(Script& script, const Simulation& simulation,
                                             std::uint32_t stage,
                                             std::span<const std::string> names) {
@@ -47,7 +48,7 @@ std::vector<std::vector<double>> numbers_of(Script& script, const Simulation& si
     for (std::size_t k = 0; k < names.size(); ++k) {
         const auto expression = picture_expression(script.tree, names[k]);
         if (!expression) continue;
-        // Ignored, because the same errors were reported when the script was loaded.
+        // The same errors were reported when the script was loaded, so the diagnostics are ignored.
         Diagnostics unspoken;
         auto formula = check_view(script.tree, *expression, stage, stage, *script.program,
                                   script.sources, unspoken);
@@ -67,7 +68,7 @@ std::vector<std::vector<double>> numbers_of(Script& script, const Simulation& si
     return numbers;
 }
 
-/// The colours of a body's points, from a canvas with a colour for each cell of the grid.
+/// Computes the colours of a body's points from a canvas with a colour for each cell of the grid.
 std::vector<Colour> colours_on(const SurfaceMesh& body, const Canvas& canvas, Boundaries boundary) {
     std::array<PlaceValue, 3> channels;
     for (std::size_t k = 0; k < channels.size(); ++k) {
@@ -119,7 +120,7 @@ void take_skin(Script& script, const Simulation& simulation, std::uint32_t stage
     }
 }
 
-/// A rotation about the x axis, from y towards z.
+/// Returns a rotation about the x axis, from y towards z.
 Quaternion leaning(double degrees) {
     const double half = degrees * std::numbers::pi / 360;
     return {std::cos(half), std::sin(half), 0, 0};
@@ -128,7 +129,8 @@ Quaternion leaning(double degrees) {
 /// The shapes of all cells, and the reasons why some shapes cannot be drawn.
 struct CellShapes {
     SharedShapes shared;
-    std::vector<std::string> faults;  ///< For each shape, why it cannot be drawn. Empty if it can.
+    /// For each shape, the reason why it cannot be drawn. Empty if the shape can be drawn.
+    std::vector<std::string> faults;
 };
 
 CellShapes shapes_of(const ShapeForm& form, std::vector<QuantityValues> values, std::size_t count) {
@@ -139,7 +141,7 @@ CellShapes shapes_of(const ShapeForm& form, std::vector<QuantityValues> values, 
     return shapes;
 }
 
-/// The message about a cell whose shape cannot be drawn.
+/// Writes the message about a cell whose shape cannot be drawn.
 std::string fault_message(const ShapeForm& form, const CellShapes& shapes,
                           std::span<const QuantityValues> values, std::size_t cell,
                           std::uint32_t number) {
@@ -209,7 +211,8 @@ Result<std::shared_ptr<const FileShape>> picture_file(Script& script) {
 
 namespace {
 
-/// Sets the shape given by formulas that the picture block names, or the shape from a file.
+/// Sets the shape: from a file or, if no file can be read, by the formulas that the picture block
+/// names.
 void take_shape(Script& script, std::shared_ptr<const FileShape> file, DrawnCells& drawn) {
     PictureShape shape = picture_shape(script.tree, script.sources);
     drawn.detail = shape.detail;
@@ -221,8 +224,8 @@ void take_shape(Script& script, std::shared_ptr<const FileShape> file, DrawnCell
     drawn.form = shape.form ? *std::move(shape.form) : library_shape(usual_shape);
 }
 
-/// The numbers of all cells: one list for each member of Measure, and one for each quantity of the
-/// shape.
+/// The measures of all cells. There is a list for each member of Measure, and a list for each
+/// quantity of the shape.
 struct MeasuredCells {
     std::vector<std::vector<double>> measures;
     std::vector<QuantityValues> quantities;
@@ -249,8 +252,8 @@ MeasuredCells measured_cells(Script& script, const Simulation& simulation, std::
     return measured;
 }
 
-/// The position and size of a cell. Empty if the cell has no size. `model` is null unless the shape
-/// comes from a file.
+/// Returns the position and size of a cell. Returns an empty optional if a side of the cell is not
+/// above 0 or not finite. `model` is null if the shape does not come from a file.
 std::optional<Placement> placement_of(const PlacedFrames& frames, std::size_t k,
                                       const MeasuredCells& measure, const FileShape* model) {
     const double wide = measure(Measure::width, k, 2 * frames.radii[k]);
@@ -360,7 +363,7 @@ Instances instances_of(const DrawnCells& cells, double pixels, double detail) {
         const auto each = static_cast<std::size_t>(team.size());
         for (auto k = static_cast<std::size_t>(thread); k < wanted.size(); k += each) {
             const SweptDetail fineness{longest_facet, std::exp2(-wanted[k].level)};
-            // A shape that turns out to be faulty gets no triangles.
+            // A shape that turns out to be faulty when its mesh is made gets no triangles.
             auto mesh = mesh_of(parts_of(cells.form, cells.shapes[wanted[k].shape]), fineness);
             if (mesh) instances.meshes[k] = std::move(*mesh);
         }

@@ -16,7 +16,7 @@ namespace cascade {
 
 namespace {
 
-// Sides of pictures, in the unit of drawings.
+// Sides of pictures, in the units of drawings.
 constexpr double figure_side = 480, least_figure_side = 40;
 constexpr double title_height = 44, margin = 24;
 constexpr double numbers_left = 76, numbers_below = 52;
@@ -37,7 +37,7 @@ void add_text(Drawing& drawing, DrawnPoint place, std::string text, DrawnText::A
     if (!text.empty()) drawing.add(DrawnText{place, std::move(text), anchor});
 }
 
-/// The palette as a bar from bottom to top.
+/// Draws the palette as a bar from bottom to top.
 Image image_of(const Palette& palette) {
     Image image(1, bar_steps);
     for (std::int64_t k = 0; k < bar_steps; ++k) {
@@ -55,7 +55,7 @@ void draw_bar(Drawing& drawing, const ColourBar& bar, const AxisBox& box) {
         DrawnImage{{box.left, box.top}, bar_width, box.bottom - box.top, image_of(*bar.palette)});
     const AxisBox frame{box.left, box.top, box.left + bar_width, box.bottom};
     draw_frame(drawing, frame);
-    // A uniform field has the colour in the middle of the palette.
+    // If all values are equal, their colour is the middle of the palette.
     const AxisRange range =
         low == high ? AxisRange{low - 1, high + 1, {}} : AxisRange{low, high, {}};
     const std::vector<double> ticks = low == high ? std::vector<double>{low} : ticks_of(range, 6);
@@ -117,7 +117,7 @@ Drawing side_by_side(std::span<const Drawing> panels, const std::string& title) 
     constexpr std::size_t most_columns = 3;
     constexpr double title_above = 30;
     const std::size_t columns = panels.size() == 4 ? 2 : std::min(panels.size(), most_columns);
-    // A column is as wide, and a row as high, as the largest panel in it.
+    // A column is as wide as its widest panel, and a row is as high as its highest panel.
     std::vector<double> widths(columns, 0), heights;
     for (std::size_t k = 0; k < panels.size(); ++k) {
         if (k % columns == 0) heights.push_back(0);

@@ -1,4 +1,5 @@
-// Draws figures for papers: a picture with axes in lengths and a bar of its colours, or a curve.
+// Draws figures for papers. A figure is a picture with axes in units of length and a bar of its
+// colours, or a curve.
 #pragma once
 
 #include "core/palette.h"
@@ -19,20 +20,20 @@ struct ColourBar {
     std::string name;  ///< The name of the number that the colours represent.
 };
 
-/// The rectangle that a picture shows, in lengths. x runs to the right and y runs down.
+/// The rectangle that a picture shows, in units of length. x runs to the right and y runs down.
 struct PlaneExtent {
     double width = 1, height = 1;
     std::string across = "x", down = "y";
 };
 
 /// Draws a picture with a title above it. A picture of a plane has ticks at its sides, and a
-/// picture whose colours represent numbers has a bar at its right. The sides of a plane keep their
-/// proportions up to 1 : 12.
+/// picture whose colours represent numbers has a bar at its right. The sides of a plane are drawn
+/// in their true proportions, unless one side is more than 12 times as long as another.
 Drawing draw_figure(const Image& picture, const std::string& title,
                     const std::optional<PlaneExtent>& plane, const std::optional<ColourBar>& bar);
 
 /// Combines figures as panels, with a title above them. Four panels form a square. Any other number
-/// of panels forms rows of at most three.
+/// of panels forms rows with at most three panels.
 Drawing side_by_side(std::span<const Drawing> panels, const std::string& title);
 
 /// Draws a number along a line of cells as a curve, from its lowest to its highest value. Values

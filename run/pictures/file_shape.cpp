@@ -1,4 +1,4 @@
-// Scales the mesh of the file along its axes. Normals are scaled by the inverse factors.
+// Scales the mesh of the file along its axes. Normals are multiplied by the inverse factors.
 #include "run/pictures/file_shape.h"
 
 #include "mesh/make_mesh.h"
@@ -14,7 +14,7 @@ namespace cascade {
 
 namespace {
 
-/// The longest side is 1. A shorter side than this is a rounding error and counts as 0.
+/// A side that is shorter than this is a rounding error and counts as 0. The longest side is 1.
 constexpr float least_side = 1e-6F;
 
 /// Multiplies each component by its factor.

@@ -10,11 +10,12 @@
 namespace cascade {
 
 /// A model as the shape of cells. It is moved and stretched so that it reaches from −1 to 1 in x
-/// and z, and from 0 to 1 in y, which points upwards. A model that is flat in a direction stays
-/// flat.
+/// and z, and from 0 to 1 in y, which points upwards. If a model has no extent along an axis, it
+/// gets none.
 struct FileShape {
     TriangleMesh mesh;
-    double length = 1, height = 1;  ///< Of the model before stretching, as multiples of its width.
+    /// The length and height of the model before stretching, as multiples of its width.
+    double length = 1, height = 1;
 };
 
 /// Fails if the script may not read the file, and in the same cases as read_model() and

@@ -50,7 +50,7 @@ Result<std::vector<std::filesystem::path>> earlier_frames(const std::filesystem:
                                                           const Script& script, bool is_resumed) {
     std::vector<std::filesystem::path> frames;
     std::error_code error;
-    // A folder that is missing or cannot be read is reported when frames are written.
+    // If the folder is missing or cannot be read, an error is reported when frames are written.
     for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
          entry.increment(error)) {
         if (is_frame_name(entry->path().filename().string())) frames.push_back(entry->path());

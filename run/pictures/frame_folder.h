@@ -11,16 +11,17 @@
 
 namespace cascade {
 
-/// Whether a path ends like a film (.mp4, .gif, .webm …). A folder should not.
+/// Whether a path ends like the name of a film (.mp4, .gif, .webm …). The path of a folder should
+/// not end so.
 bool is_called_like_a_movie(const std::filesystem::path& path);
 
-/// The name of frame `number`, such as "0012-large-0003400.png".
+/// Returns the name of frame `number`, such as "0012-large-0003400.png".
 std::string frame_name(std::size_t number, const std::string& stage, std::int64_t step);
 
-/// The frames in the folder that an earlier run of a script with the same name has written. They
-/// are removed after the new frames have been written. Fails if the folder has frames of another
-/// script or of unknown origin. Also fails if a resumed run finds any frames. Other files are
-/// ignored.
+/// Returns the frames in the folder that an earlier run of a script with the same name has written.
+/// They will be removed after the new frames have been written. Fails if the folder has frames of
+/// another script or of unknown origin. Also fails if the run is resumed and the folder has any
+/// frames. Other files are ignored.
 Result<std::vector<std::filesystem::path>> earlier_frames(const std::filesystem::path& folder,
                                                           const Script& script, bool is_resumed);
 

@@ -26,12 +26,13 @@ std::size_t plane_size(const PlaneLayout& layout) {
     return static_cast<std::size_t>(layout.size());
 }
 
-/// The beginning of a plane's memory, which is contiguous and includes the halo and the padding of
-/// rows.
+/// Returns the beginning of a plane's memory. This memory is contiguous and includes the halo and
+/// the padding of rows.
 const float* storage(const Field& field) { return field.origin() - field.layout().offset(0, 0); }
 float* storage(Field& field) { return field.origin() - field.layout().offset(0, 0); }
 
-/// The last of `planes` if it has this layout, or else a new plane.
+/// Returns the last of `planes` if it has this layout, and a new plane if not. Removes the plane
+/// from `planes`.
 Field reused_plane(const PlaneLayout& layout, std::vector<Field>& planes) {
     if (planes.empty()) return Field(layout);
     Field plane = std::move(planes.back());
@@ -179,10 +180,11 @@ Result<Canvas> FrameRecorder::read_back(const Frame& frame, std::vector<Field> p
     return canvas;
 }
 
-/// The number of threads, at most `threads`, whose data fit into half of the free memory. Each
-/// thread needs a picture and the input of its encoder.
+/// Returns the number of threads whose data fit into half of the free memory, at most `threads`.
+/// Each thread needs a picture and the input of its encoder.
 int FrameRecorder::threads_for(const Painter& painter, int threads) const {
-    // A picture of a surface, or a smooth picture, is drawn by all threads together.
+    // A picture of a surface, or a smooth picture, is drawn by all threads together, so only one
+    // picture is drawn at a time.
     if (frames_.empty() || !painter.has_square_cells() || shows_cells()) return 1;
     constexpr std::uint64_t bytes_of_pixel = 40;
     const auto [across, down] = painter.request().copies;
@@ -204,7 +206,7 @@ Result<void> FrameRecorder::use_canvases(std::span<const std::size_t> numbers, i
     std::optional<Failure> failed;
     const auto work = [&](int) {
         std::unique_lock lock(mutex);
-        std::vector<Field> planes;  // Planes whose memory is reused from frame to frame.
+        std::vector<Field> planes;  // Planes whose memory the next frame uses again.
         Image image;
         while (!failed && !cancel && begun < numbers.size()) {
             const std::size_t turn = begun++;

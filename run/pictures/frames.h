@@ -1,5 +1,5 @@
-// Frames show moments of a run. They are stored until the run ends, because all share one range of
-// values, which is known only then.
+// Frames show moments of a run. All frames share one range of values, which is known only at the
+// end of the run. So frames are stored until then.
 #pragma once
 
 #include "core/result.h"
@@ -20,16 +20,16 @@
 
 namespace cascade {
 
-/// Stores the values of frames in an unnamed temporary file, because all frames of a long run may
-/// not fit into memory. Draws them after the run.
+/// Stores the values of frames in an unnamed temporary file, because the frames of a long run may
+/// not fit into memory. Draws the frames after the run.
 class FrameRecorder {
 public:
-    /// `keep_values` is needed for pictures and films. `space_time` is needed for a space-time
-    /// picture, whose rows stay in memory.
+    /// If `keep_values` is true, stores values for pictures and films. If `space_time` is true,
+    /// stores rows for a space-time picture in memory.
     static Result<FrameRecorder> create(bool keep_values, bool space_time);
 
-    /// Adds a frame. If the disk is full, failure() reports the error later. `label` is drawn into
-    /// a corner of the picture if the picture has room for it.
+    /// Adds a frame. If the disk is full, failure() reports this later. `label` is drawn into a
+    /// corner of the picture if there is room for it.
     void record(const Canvas& canvas, const std::string& stage, std::int64_t step,
                 std::string label = "");
     std::optional<Failure> failure() const { return failure_; }
@@ -37,47 +37,50 @@ public:
     bool holds_starts_alone() const;
 
     std::size_t count() const { return frames_.size(); }
-    /// The values of a frame. Fails if they cannot be read from the file.
+    /// Reads the values of a frame. Fails if they cannot be read from the file.
     Result<Canvas> canvas(std::size_t number) { return read_back(frames_[number]); }
-    /// The automatic range over the values of all frames.
+    /// Returns the automatic range of the values of all frames.
     ValueRange range() const { return automatic_range(values_); }
 
     /// The part of the work on a picture that must be done in the order of the pictures. It runs
-    /// after the same work for all earlier pictures.
+    /// after the same part for all earlier pictures has run.
     using InOrder = std::function<Result<void>()>;
     /// Processes the picture of frame `number`, and returns the work that must be done in order.
     /// Called on several threads at the same time.
     using UseImage = std::function<Result<InOrder>(std::size_t number, const Image& image)>;
 
-    /// Draws the frames with the given ascending numbers, with one range for all. Draws several at
-    /// the same time, on at most `threads` threads. Stops after a failure, and when `cancel` is
-    /// set.
+    /// Draws the frames with the given ascending numbers. All frames have the same range. Draws
+    /// several frames at the same time, on at most `threads` threads. Stops after a failure, and
+    /// when `cancel` is set.
     Result<void> draw(Painter& painter, std::span<const std::size_t> numbers, int threads,
                       const std::atomic<bool>& cancel, const UseImage& use);
 
     /// Draws every frame into the folder as NUMBER-STAGE-STEP.png. After a failure, only the frames
-    /// before the failed one remain. Once `cancel` is set, no more are begun.
+    /// before the failed frame remain. Once `cancel` is set, no more frames are begun.
     Result<std::vector<std::filesystem::path>> write(const std::filesystem::path& folder,
                                                      Painter& painter, const PngTexts& texts,
                                                      int threads, const std::atomic<bool>& cancel);
 
-    /// The space-time picture of a grid of one row. Each frame is a row, the first at the top.
+    /// Returns the space-time picture of a grid of one row. Each frame is a row of pixels, and the
+    /// first frame is at the top.
     Image space_time(Painter& painter) const;
 
 private:
     struct Frame {
-        PlaneScales scales{1, 1};  ///< Canvas::scales.
+        PlaneScales scales{1, 1};  ///< See Canvas::scales.
         std::string stage;
         std::int64_t step = 0;
         std::string label;
         std::size_t planes = 1;
-        /// The planes of extra_planes() that follow the fields in the file.
+        /// The planes of extra_planes() that the file contains after the fields.
         std::bitset<2 + material_parts> extras;
         PlaneLayout layout;
-        std::int64_t place = 0;  ///< The position of its values in the file, in bytes.
-        /// The cells of a stage of crawling cells, without their vectors, which are in the file.
+        /// The position in the file, in bytes, at which the values of the frame begin.
+        std::int64_t place = 0;
+        /// The cells of a stage of crawling cells. Their vectors are empty, because the file
+        /// contains the elements.
         std::shared_ptr<const DrawnCells> cells;
-        /// The lengths of the vectors of placements and colours in the file.
+        /// The numbers of placements and colours in the file.
         std::size_t placements = 0, colours = 0;
         bool has_body = false;  ///< Whether the frame has a body (Canvas::body) in the file.
         /// The numbers of points and triangles of the body.
@@ -110,7 +113,7 @@ private:
 
     bool keep_rows_ = false;
     std::unique_ptr<std::FILE, CloseFile> file_;
-    std::int64_t kept_ = 0;  ///< Bytes in the file.
+    std::int64_t kept_ = 0;  ///< The number of bytes in the file.
     std::vector<Frame> frames_;
     std::vector<Canvas> rows_;
     PlaneScales largest_{0, 0};  ///< The largest scales of all frames.

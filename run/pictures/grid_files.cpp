@@ -1,4 +1,4 @@
-// Bodies are scaled and passed to the code that writes levels of detail. Maps are made in export/.
+// Scales bodies and passes them to the code that writes levels of detail. Maps are made in export/.
 #include "run/pictures/grid_files.h"
 
 #include "core/enough_memory.h"

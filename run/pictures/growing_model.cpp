@@ -1,4 +1,4 @@
-// All moments have their colours at the points of the same refined mesh.
+// The colours of all moments are at the points of the same refined mesh.
 #include "core/enough_memory.h"
 #include "core/write_encoded.h"
 #include "export/glb.h"

@@ -1,5 +1,6 @@
-// XDMF describes where each moment is in the HDF5 file (www.xdmf.org, "XDMF Model and Format"). Its
-// list of moments grows like the file, and ends with a moment that is complete there.
+// XDMF describes where each moment is in the HDF5 file (www.xdmf.org, "XDMF Model and Format"). The
+// list of moments in the XDMF file grows together with the HDF5 file. A moment is listed only after
+// it is complete in the HDF5 file.
 #include "run/pictures/hdf5_series.h"
 
 #include "core/growing_file.h"
@@ -114,7 +115,7 @@ Hdf5Layout layout_of(const Simulation& simulation, const Sides& sides, const Ser
     return layout;
 }
 
-/// The parameters of a started stage that are the same in all cells.
+/// Returns the parameters of a started stage that are the same in all cells.
 std::map<std::string, double> numbers_of_stage(const Simulation& simulation, std::uint32_t stage) {
     const System& system = simulation.domain().program->system_of(stage);
     const StageState& state = simulation.state(stage);
@@ -143,14 +144,15 @@ private:
     bool is_model_ = false;
     double spacing_ = 1;
     std::size_t bytes_of_number_ = 4;
-    std::optional<std::uint32_t> described_;  ///< The last stage whose parameters are written.
-    std::unique_ptr<GrowingFile> place_;      ///< Gives the HDF5 file its name, and completes it.
+    std::optional<std::uint32_t>
+        described_;                       ///< The last stage whose parameters have been written.
+    std::unique_ptr<GrowingFile> place_;  ///< Gives the HDF5 file its name, and completes the file.
     std::unique_ptr<Hdf5File> file_;
     std::unique_ptr<GrowingFile> list_;
     static constexpr std::string_view end_of_list = "  </Grid>\n</Domain>\n</Xdmf>\n";
 };
 
-/// Names the file in an error.
+/// Adds the name of the file to an error.
 Result<void> Hdf5Series::named(const Result<void>& done) const {
     if (done) return done;
     return failure(fmt::format("cannot write '{}': {}", path().string(), done.error().message),
@@ -207,8 +209,8 @@ Result<void> Hdf5Series::add_moment(const Simulation& simulation) {
     return appeared ? list_->appear() : appeared;
 }
 
-/// A moment as a grid of XDMF. A line and a plane have one layer of cells. The cells of a model are
-/// points.
+/// Writes a moment as a grid of XDMF. A line or a plane is a grid with one layer of cells. The
+/// cells of a model are points.
 std::string Hdf5Series::xdmf_of(const ArrayMoment& moment) const {
     const std::string file = xml_escaped(path().filename().string());
     Sides layers = sides_;

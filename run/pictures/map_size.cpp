@@ -1,4 +1,5 @@
-// The cells together cover a part of the N × N texels of a map. N is computed from this part.
+// Computes N for a map of N × N texels from the fraction of the texels that the cells cover
+// together.
 #include "run/pictures/map_size.h"
 
 #include "atlas/texture_facts.h"
@@ -20,7 +21,7 @@ double side_needed(double texels_per_cell, std::int64_t cells, double covered) {
 
 double covered_by(const ModelCells& model, const MeshTexture& texture) {
     const SurfaceMesh mesh = mesh_in_files(model, texture);
-    // A texture that covers almost no texel is refused or reported by other code.
+    // If a texture covers almost no texel, other code refuses or reports it.
     return std::max(texture_facts(mesh).covered, 1e-4);
 }
 
@@ -36,7 +37,7 @@ MapSize map_size_for(double texels_per_cell, const Simulation& simulation,
                      const MeshTexture& texture) {
     constexpr std::int64_t most = ModelFileOptions::most_texels;
     std::int64_t wanted = 0;
-    double cells_along = 0;  // The number of adjacent cells that span the map.
+    double cells_along = 0;  // The number of cells side by side that are as wide as the map.
     if (const auto& model = simulation.domain().model) {
         const double covered = covered_by(*model->cells, texture);
         const auto count = static_cast<std::int64_t>(model->cells->count());

@@ -31,8 +31,8 @@ constexpr std::array<NumberSetting, 3> number_settings = {{
 constexpr std::array<MaterialPart, 3> emission_parts = {MaterialPart::red, MaterialPart::green,
                                                         MaterialPart::blue};
 
-/// Clamps the numbers of all cells to 0 … 1. Adds to `changed` the number of cells inside the
-/// domain whose numbers had to be changed.
+/// Clamps the numbers of all cells to 0 … 1, and replaces NaN by `usual`. Adds to `changed` the
+/// number of cells inside the domain whose numbers have changed.
 std::vector<float> clamped(const std::vector<double>& values, float usual,
                            std::span<const std::uint8_t> inside, std::size_t& changed) {
     std::vector<float> result;
@@ -52,8 +52,8 @@ std::vector<Field> setting_values(const Script& script, std::string_view setting
                                   std::uint32_t last_stage) {
     const auto expression = picture_expression(script.tree, setting);
     if (!expression) return {};
-    // Errors were reported when the script was loaded. The only new error is a name that has no
-    // value yet.
+    // Other errors than a name without a value yet were reported when the script was loaded, so the
+    // diagnostics are ignored.
     Diagnostics unspoken;
     const auto formula = check_view(script.tree, *expression, stage, last_stage, *script.program,
                                     script.sources, unspoken);
@@ -98,7 +98,8 @@ Material::Material(const MaterialFields& fields,
     }
     for (const MaterialPart part : emission_parts) {
         const Field& field = fields.parts[part];
-        std::size_t unspoken = 0;  // Not used, because colours are clamped without a message.
+        // This count is not used, because colours are clamped without a message.
+        std::size_t unspoken = 0;
         if (!field.empty()) parts[part] = clamped(in_order(field), 0, inside, unspoken);
     }
     if (fields.height.empty()) return;

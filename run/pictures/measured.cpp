@@ -1,4 +1,4 @@
-// If the picture shows colours, the default number of the stage is measured instead.
+// If the picture shows colours, measures the number that the stage shows by default.
 #include "run/pictures/measured.h"
 
 #include "core/spread.h"

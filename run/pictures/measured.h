@@ -11,22 +11,22 @@
 
 namespace cascade {
 
-/// The number in a picture, in all cells (in a volume, of all slices). If the picture shows
-/// colours, it is the number that the stage shows by default: the setting `show` of its system, or
-/// its last species.
+/// Returns the number in a picture, in all cells. In a volume, these are the cells of all slices.
+/// If the picture shows colours, returns the number that the stage shows by default: the setting
+/// `show` of its system or, if it is missing, its last species.
 Field shown_number(Painter& painter, const Simulation& simulation);
 
-/// The name of shown_number() in figures: the text of `--show`, or the species that the stage shows
-/// by default. Empty if the number has no name.
+/// Returns the name of shown_number() in figures: the text of `--show`, or the species that the
+/// stage shows by default. Returns an empty string if the number has no name.
 std::string name_of_number(const Script& script, std::uint32_t stage,
                            const PictureRequest& request);
 
-/// The features of shown_number(). On a model and for crawling cells, which have no rows and
-/// columns, only the mean, deviation, smallest and largest value are measured.
+/// Measures the features of shown_number(). On a model and for crawling cells, there are no rows
+/// and columns, so only the mean, deviation, smallest and largest value are measured.
 measure::Features measure_shown(Painter& painter, const Simulation& simulation);
 
-/// The characteristic length of shown_number() (measure/spectrum.h). NaN if the number is uniform,
-/// on a model and for crawling cells.
+/// Measures the characteristic length of shown_number() (measure/spectrum.h). Returns NaN if the
+/// number is uniform, on a model, and for crawling cells.
 double shown_length(Painter& painter, const Simulation& simulation);
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
-// Chooses between refined, retiled and baked models. Each mesh and filter is made once and used for
-// all files.
+// Chooses between refined, retiled and baked models. Each mesh and filter is made only once, and
+// all files use it.
 #include "run/pictures/model_files.h"
 
 #include "core/enough_memory.h"
@@ -27,7 +27,7 @@ namespace cascade {
 
 namespace {
 
-/// The usual fraction of a map that the texture coordinates made by Cascade cover.
+/// The fraction of a map that texture coordinates made by Cascade usually cover.
 constexpr double usual_cover = 0.6;
 
 }  // namespace

@@ -26,9 +26,9 @@ static_assert(ModelFileOptions::most_texels == BakeOptions::largest_texture);
 
 constexpr std::int64_t least_texels = 16;  ///< The smallest side of a level's maps.
 
-/// A sentence that the maps are far finer than the cells. Empty if they are not.
+/// Says that the maps are far finer than the cells. Returns an empty string if they are not.
 std::string describe_spare_texels(std::int64_t side, double texels_of_cell) {
-    constexpr double most = 16, enough = 4;  // Texels along a cell.
+    constexpr double most = 16, enough = 4;  // In texels along a cell.
     const double along = std::sqrt(texels_of_cell);
     if (!(along > most)) return {};
     const auto needed = static_cast<std::uint64_t>(static_cast<double>(side) * enough / along);

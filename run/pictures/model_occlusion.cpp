@@ -40,7 +40,7 @@ std::vector<float> model_occlusion(const SurfaceMesh& mesh, const SurfaceCells& 
         const Vector3d top =
             position_of(mesh, place) + outwards * static_cast<double>(finite[cell]);
         const Vector3 normal = single(outwards);
-        // The raised triangles may be slightly above or below the height of the cell.
+        // The cell, at its height, may be slightly above or below the raised triangles.
         Vector3 begin = single((top - drawn.middle) * drawn.scale) + normal * nearby;
         const auto hit = caster.nearest({begin, -normal});
         begin = begin - normal * (hit && hit->distance < 2 * nearby ? hit->distance : nearby);

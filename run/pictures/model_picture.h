@@ -25,19 +25,20 @@ struct ModelLook : CellLook {
     /// Sets heights computed from a number. The height of a cell is the position of its number in
     /// `range`, 0 … 1, times `bump` times the longest side of the model.
     void raise(const ModelCells& model, const Field& number, ValueRange range, float bump);
-    /// The visible colour of cell k, which is at `place`.
+    /// Returns the visible colour of cell k, which is at `place`.
     Colour colour_of(std::size_t k, const SurfacePlace& place) const {
         return colour(std::span(values).subspan(k * channels, channels), place);
     }
 };
 
-/// Draws pictures of a model. Later pictures reuse data of earlier ones.
+/// Draws pictures of a model. Data that later pictures need again is stored.
 class ModelDrawer {
 public:
     /// Throws std::bad_alloc.
     explicit ModelDrawer(std::shared_ptr<const ModelCells> model);
 
-    /// Draws the model. `copies` are objects on it, in the coordinates of drawn(). Null: none.
+    /// Draws the model. `copies` are objects on the model, in the coordinates of drawn(). If null,
+    /// there are no objects.
     Image draw(const ModelLook& look, const DrawOptions& options,
                const Instances* copies = nullptr);
     const DrawnMesh& drawn() const { return scene_.drawn(); }

@@ -1,4 +1,4 @@
-// Blurs values over all cells, and then reads them at the cells of the level.
+// Blurs the values of all cells, and then reads them at the cells of the level.
 #include "run/pictures/nested_tiling.h"
 
 #include "core/run_control.h"
@@ -44,8 +44,8 @@ public:
             }
             auto level = level_of(kept, k == 0 ? 0 : std::exp2(k) / 2);
             if (!level) return tl::unexpected(level.error());
-            // The topology may need nearly all remaining points, so that further levels would
-            // hardly be smaller.
+            // The topology may need nearly all remaining points. Further levels would then hardly
+            // be smaller.
             if (k > 0 && 2 * level->mesh.triangles.size() > levels.back().mesh.triangles.size()) {
                 break;
             }
@@ -55,11 +55,13 @@ public:
     }
 
 private:
-    /// The numbers of all cells, blurred by `sigma` distances between cells. Numbers that are not
-    /// finite are left out. A cell with only such numbers nearby keeps its own number.
+    /// Returns the numbers of all cells, blurred by `sigma` distances between cells. Numbers that
+    /// are not finite are left out. If only such numbers are near a cell, the cell keeps its own
+    /// number.
     std::vector<float> blurred(const std::vector<float>& numbers, double sigma) const {
         if (sigma == 0) return numbers;
-        std::vector<float> sums;  // A number and its weight for each cell.
+        // For each cell, the sum of the numbers and the sum of their weights.
+        std::vector<float> sums;
         for (const float number : numbers) {
             const bool counts = std::isfinite(number);
             sums.push_back(counts ? number : 0);
@@ -74,8 +76,8 @@ private:
         return means;
     }
 
-    /// A level whose points are the cells `kept`, in ascending order, with values blurred by
-    /// `sigma` distances between cells.
+    /// Makes a level whose points are the cells `kept`, which are in ascending order. The values
+    /// are blurred by `sigma` distances between cells.
     Result<ModelLevel> level_of(const std::vector<std::uint32_t>& kept, double sigma) const {
         std::vector<SurfacePlace> places;
         for (const std::uint32_t cell : kept) places.push_back(cells_.places[cell]);

@@ -14,11 +14,11 @@ namespace cascade {
 
 /// Makes levels of detail by retiling at several densities (G. Turk, "Re-Tiling Polygonal
 /// Surfaces", SIGGRAPH 1992, section 5). The points of level 0 are the cells. Each further level
-/// has a quarter of the points of the level before, spread uniformly (see nested_order()). Colours,
-/// channels and heights are blurred to the distance between the level's points, colours in linear
-/// light (G. Turk, "Texturing Surfaces Using Reaction-Diffusion", thesis, 1992, section 5.4). Makes
-/// at most `count` levels. Stops earlier if the topology of the surface needs more than half of the
-/// triangles of the level before. Fails like retile(). Throws std::bad_alloc.
+/// has a quarter of the points of the level before, spread uniformly (see nested_order()). Colours
+/// (as linear light), channels and heights are blurred to the distance between the level's points
+/// (G. Turk, "Texturing Surfaces Using Reaction-Diffusion", thesis, 1992, section 5.4). Makes at
+/// most `count` levels. Stops earlier if the topology of the surface needs more than half of the
+/// triangles of the level before. Fails in the same cases as retile(). Throws std::bad_alloc.
 Result<std::vector<ModelLevel>> nested_tiling(const SurfaceMesh& mesh, const SurfaceCells& cells,
                                               const ModelLook& look,
                                               std::span<const Channel> channels, int count,

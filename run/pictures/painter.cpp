@@ -1,5 +1,5 @@
-// Checks --show once, evaluates it in the shown stage, and paints a plane, a slice, a surface or a
-// model.
+// Checks --show once, when the painter is made. Evaluates it in the shown stage, and paints a
+// plane, a slice, a surface or a model.
 #include "run/pictures/painter.h"
 
 #include "core/near_name.h"
@@ -30,7 +30,8 @@ namespace cascade {
 
 namespace {
 
-/// The last stage whose values formulas may read: the shown stage or the last started one.
+/// Returns the last stage whose values formulas may read: the last started stage or, if no stage
+/// after the shown stage has started, the shown stage.
 std::uint32_t last_to_read(const Simulation& simulation, std::uint32_t stage) {
     std::uint32_t last = stage;
     while (last + 1 < simulation.domain().program->stages.size() &&
@@ -40,7 +41,7 @@ std::uint32_t last_to_read(const Simulation& simulation, std::uint32_t stage) {
     return last;
 }
 
-/// Evaluates formulas in the shown stage.
+/// Returns a function that evaluates formulas in the shown stage.
 EvaluateFormula evaluation_in(const Simulation& simulation) {
     return [&simulation](const Formula& formula) {
         return simulation.evaluate(formula, shown_stage(simulation));
@@ -92,7 +93,8 @@ std::optional<Formula> Painter::formula(const Simulation& simulation) {
     const auto expression = show_ ? show_ : picture_expression(script_->tree);
     if (!expression) return std::nullopt;
     const std::uint32_t stage = shown_stage(simulation);
-    // Errors in the script have been reported. The only new error is a name without a value.
+    // Other errors than a name without a value yet have been reported, so the diagnostics are
+    // ignored.
     Diagnostics unspoken;
     return check_view(script_->tree, *expression, stage, last_to_read(simulation, stage),
                       *script_->program, script_->sources, unspoken);
@@ -211,7 +213,7 @@ Image Painter::texture(const Canvas& canvas, std::optional<ValueRange> range, Im
     return image;
 }
 
-/// Draws a smooth picture. If copies are shown side by side, draws one of them.
+/// Draws a smooth picture. If the picture consists of several copies, draws one of them.
 Image Painter::smooth(const Canvas& canvas, std::optional<ValueRange> range) const {
     const PlaneLook look = plane_look(canvas, range);
     const PictureSize size = copy_size(script_->program->domain.grid, request_);
@@ -267,7 +269,8 @@ bool Painter::is_plane() const {
     return !model_ && (!script_->program->domain.surface || request_.flat);
 }
 
-/// A canvas with the body. Empty if the formula of the body reads a stage that has not run.
+/// Adds the body to the canvas, and replaces each field by its values at the points of the body. If
+/// the formula of the body reads a stage that has not run, the body has no points.
 Canvas Painter::canvas_of_body(const Simulation& simulation, Canvas values) {
     const std::uint32_t stage = shown_stage(simulation);
     const auto inside = setting_values(*script_, "body", evaluation_in(simulation), stage,
@@ -285,7 +288,7 @@ Image Painter::of_body(const Canvas& canvas, std::optional<ValueRange> range) co
     return draw_body(canvas.body, colours_of_row(canvas, range), options);
 }
 
-/// The canvas with the crawling cells, whose values are in the order of the cells' numbers.
+/// Adds the crawling cells to the canvas, and puts its values in the order of the cells' numbers.
 Canvas Painter::canvas_of_cells(const Simulation& simulation, Canvas values) {
     const std::uint32_t stage = shown_stage(simulation);
     const Tissue& tissue = *simulation.state(stage).tissue();
@@ -326,7 +329,7 @@ bool Painter::has_pixel_per_cell(const Canvas& canvas) const {
 }
 
 Image Painter::image(const Canvas& canvas, std::optional<ValueRange> range, Image earlier) {
-    // Images of other kinds do not reuse memory.
+    // Images of other kinds cannot reuse this memory.
     if (!has_pixel_per_cell(canvas)) earlier = {};
     if (canvas.cells) return with_cells(canvas, range);
     if (canvas.body) return of_body(canvas, range);

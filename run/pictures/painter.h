@@ -26,27 +26,29 @@ struct SurfaceMesh;
 /// The values to paint, in binary32: one field for the palette, or red, green and blue.
 struct Canvas {
     std::vector<Field> fields;
-    /// For a colour with bumps, the number from which the heights are computed.
+    /// For a picture of colours with bumps, the number from which the heights are computed.
     Field relief = {};
     MaterialFields material = {};  ///< Has values for models and in the result of map_canvas().
     /// The lengths of a cell of a plane or slice, across and down, divided by the spacing, or the
     /// result of scales_of_body(). They differ from 1 in a domain that grows.
     PlaneScales scales{1, 1};
-    /// The number of parts of a cell along each axis. Above 1 in maps and smooth pictures.
+    /// The number of parts into which a cell is divided along each axis. Above 1 only in maps and
+    /// smooth pictures.
     std::int64_t parts = 1;
     /// The cells of a stage of crawling cells, in the order of the values in the fields. Null for
     /// other stages.
     std::shared_ptr<const DrawnCells> cells = nullptr;
-    /// The surface of a volume that is drawn as a body, in the script's unit of length. The fields
-    /// are then one row with the values at the points of the surface. The surface has no points if
+    /// The surface of a volume that is drawn as a body, in the script's unit of length. Each field
+    /// is then one row with the values at the points of the surface. The surface has no points if
     /// the body is empty. Null if no body is drawn.
     std::shared_ptr<const SurfaceMesh> body = nullptr;
     bool is_colour() const { return fields.size() == 3; }
-    /// The number that heights and the range refer to. Null if there are only colours.
+    /// Returns the number to which heights and the range refer. Returns null if the canvas contains
+    /// only colours.
     const Field* number() const;
 };
 
-/// All planes of a canvas besides `fields`: relief, height and material. Some may be empty.
+/// Returns all planes of a canvas besides `fields`: relief, height and material. Some may be empty.
 template <typename AnyCanvas>
 auto extra_planes(AnyCanvas& canvas) {
     std::array<decltype(&canvas.relief), 2 + material_parts> planes{&canvas.relief,
@@ -67,32 +69,33 @@ public:
     static Result<Painter> create(Script& script, const PictureRequest& request,
                                   std::string_view option = "--show");
 
-    /// The values to paint now. For a volume these are the values of a slice or a body. If the
-    /// picture block reads a stage that has not run, the default picture is used, and from then on
-    /// fell_back() returns true.
+    /// Computes the values to paint now. For a volume these are the values of a slice or a body. If
+    /// the picture block reads a stage that has not run, the default picture is used, and from then
+    /// on fell_back() returns true.
     Canvas canvas(const Simulation& simulation);
-    /// The values of all cells (in a volume, of all slices), in the run's precision.
+    /// Computes the values of all cells in the run's precision. In a volume, these are the cells of
+    /// all slices.
     Canvas values(const Simulation& simulation);
     bool fell_back() const { return fell_back_; }
-    /// The values of a plane, with the material, for maps whose longer side has `texels` texels.
-    /// Cells larger than texels are divided into up to 8 × 8 parts in which formulas are evaluated,
-    /// so that thresholds have smooth outlines. Canvases of smooth pictures are made in the same
-    /// way, but without the material.
+    /// Computes the values of a plane, with the material, for maps whose longer side has `texels`
+    /// texels. A cell that is larger than a texel is divided into up to 8 × 8 parts. Formulas are
+    /// evaluated in each part, so that thresholds have smooth outlines. Canvases of smooth pictures
+    /// are made in the same way, but without the material.
     Canvas map_canvas(const Simulation& simulation, std::int64_t texels);
 
-    /// The expression of --show, or else of the picture block, for the shown stage. Empty for the
-    /// default picture.
+    /// Returns the expression of --show or, if it is missing, of the picture block, for the shown
+    /// stage. Returns an empty optional for the default picture.
     std::optional<Formula> formula(const Simulation& simulation);
 
-    /// Paints a canvas. The image is enlarged or smooth as requested, transparent outside the mask,
-    /// and drawn on the surface if the domain has one. `range` replaces the automatic range. The
-    /// image may reuse the memory of `earlier`.
+    /// Paints a canvas. The image is enlarged or smooth as requested, and transparent outside the
+    /// mask. If the domain has a surface, the image is drawn on it. `range` replaces the automatic
+    /// range. The image may reuse the memory of `earlier`.
     Image image(const Canvas& canvas, std::optional<ValueRange> range = {}, Image earlier = {});
     /// Paints a canvas as image() does, for a film that also shows crawling cells. The image has
     /// the size of frames with cells. A plane or slice is drawn as the floor below the cells.
     Image image_beside_cells(const Canvas& canvas, std::optional<ValueRange> range);
-    /// The data with which another program paints the canvas, with one pixel for each cell and
-    /// without a mask. Empty if image() draws more than that.
+    /// Returns the data with which another program paints the canvas, with one pixel for each cell
+    /// and without a mask. Returns an empty optional if image() would draw more than that.
     std::optional<Painting> painting(const Canvas& canvas,
                                      std::optional<ValueRange> range = {}) const;
     /// Whether the last canvas is shown as a plane, or as the texture of a surface.
@@ -107,27 +110,28 @@ public:
     /// Sets the width, in pixels, of later pictures of surfaces and of crawling cells.
     void set_width(std::int64_t width) { width_ = width; }
     /// Sets a function that is called while later pictures of surfaces are drawn. Its argument is
-    /// the finished fraction. If it returns false, the picture remains incomplete.
+    /// the fraction that is complete. If the function returns false, the picture remains
+    /// incomplete.
     void set_report(std::function<bool(double)> report) { report_ = std::move(report); }
     /// Sets the slice for later canvases.
     void set_slice(const Slice& slice) { request_.slice = slice; }
-    /// The colours of a canvas of crawling cells, in the order of the cells' numbers, or of the
-    /// points of a body.
+    /// Returns the colours of the points of a body or, for a canvas of crawling cells, the colours
+    /// of the cells in the order of their numbers.
     std::vector<Colour> colours_of_row(const Canvas& canvas,
                                        std::optional<ValueRange> range = {}) const;
-    /// The values of the last canvas in the cells of its model.
+    /// Returns the values of the last canvas in the cells of its model.
     ModelLook look(const Canvas& canvas, std::optional<ValueRange> range = {}) const;
-    /// The values of the last canvas, which must be of a plane or slice.
+    /// Returns the values of the last canvas, which must be of a plane or slice.
     PlaneLook plane_look(const Canvas& canvas, std::optional<ValueRange> range = {}) const;
 
-    /// The range of values for the palette: --range if given, else `range` if given, else the
-    /// automatic range.
+    /// Returns the range of values for the palette: --range if it is given, otherwise `range` if it
+    /// is given, and otherwise the automatic range.
     ValueRange range_of(const Canvas& canvas, std::optional<ValueRange> range = {}) const;
 
 private:
     void look_at_domain(const Simulation& simulation);
     Canvas canvas_of_plane(const Simulation& simulation, std::int64_t texels, bool has_material);
-    /// Whether fields are shown as planes.
+    /// Whether the fields of the last canvas are shown as planes.
     bool is_plane() const;
     /// Whether the image has exactly one pixel for each cell.
     bool has_pixel_per_cell(const Canvas& canvas) const;
@@ -147,16 +151,18 @@ private:
     std::optional<ast::Expression> show_;
     const Palette* palette_ = nullptr;
     bool fell_back_ = false;
-    /// The shape from the file that the picture block names. Null if it names none.
+    /// The shape from the file that the picture block names. Null if the picture block names no
+    /// file.
     std::shared_ptr<const FileShape> file_shape_;
     std::shared_ptr<const ModelCells> model_;  ///< The model of the last canvas. Null on grids.
-    std::shared_ptr<ModelDrawer> drawer_;      ///< Made for the first picture.
-    std::optional<std::int64_t> width_;        ///< Empty: the default width.
+    std::shared_ptr<ModelDrawer> drawer_;      ///< Made when the first picture of a model is drawn.
+    std::optional<std::int64_t> width_;        ///< Empty: the pictures have the default width.
     std::function<bool(double)> report_;
-    bool shows_cells_ = false;  ///< Whether the last canvas was of crawling cells.
+    bool shows_cells_ = false;  ///< Whether the last canvas shows crawling cells.
     bool shows_body_ = false;   ///< Whether volumes are drawn as bodies.
-    Field outside_;  ///< A mask for the last canvas: NaN outside the domain. Empty if the domain
-                     ///< has no mask.
+    /// A mask for the last canvas, which is NaN outside the domain. Empty if the domain has no
+    /// mask.
+    Field outside_;
 };
 
 /// Draws all species of all started stages in one labelled picture.

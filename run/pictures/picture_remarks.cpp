@@ -17,12 +17,13 @@ namespace cascade {
 
 namespace {
 
-/// The spectrum of a larger grid would take as much time as many steps, so it is not computed.
+/// The largest number of cells of a grid for which a spectrum is computed. In a larger grid, the
+/// spectrum would take as much time as many steps.
 constexpr std::int64_t most_cells_of_spectrum = std::int64_t{1} << 20;
-/// Waves count as too short for the grid if short waves have more than this fraction of a pattern's
-/// variance. For white noise on a plane the fraction is 0.8.
+/// Waves count as too short for the grid if short waves contribute more than this fraction of a
+/// pattern's variance. For white noise on a plane the fraction is 0.8.
 constexpr double mostly_unresolved = 0.7;
-/// The number of different greys in a picture with 8 bits.
+/// The number of greys that a picture with 8 bits can show.
 constexpr double levels = 256;
 
 constexpr const char* is_one_colour = "the picture is of one colour";
@@ -44,8 +45,8 @@ std::string describe_range(const Spread& values, ValueRange range) {
     return {};
 }
 
-/// Describes which of red, green and blue are outside of 0 … 1. They are clamped when they are
-/// drawn.
+/// If the picture has a single colour because red, green and blue each differ by less than one
+/// level after they are clamped to 0 … 1, says so. Otherwise returns an empty string.
 std::string describe_clamped(const Canvas& canvas) {
     const bool is_uniform =
         std::all_of(canvas.fields.begin(), canvas.fields.end(), [](const Field& field) {
@@ -59,7 +60,8 @@ std::string describe_clamped(const Canvas& canvas) {
                        is_one_colour);
 }
 
-/// Describes numbers of a material that are outside of 0 … 1.
+/// Describes the first of roughness, metalness and opacity that has numbers outside of 0 … 1.
+/// Returns an empty string if none has.
 std::string describe_clamped(const MaterialFields& material) {
     constexpr std::pair<const char*, MaterialPart> settings[] = {
         {"roughness", MaterialPart::roughness},
@@ -138,7 +140,7 @@ std::string remark_on_look(const Painter& painter, const Simulation& simulation,
     const PictureRequest& request = painter.request();
     const bool has_palette = request.palette != PictureRequest().palette;
     if (!(has_palette || request.range) || !simulation.state(0).started) return {};
-    // The canvas shows a number, so --palette and --range have an effect.
+    // The canvas contains a number, so --palette and --range have an effect.
     if (canvas.number() != nullptr) return {};
     const char* const options = !request.range ? "--palette changes"
                                 : has_palette  ? "--palette and --range change"

@@ -19,7 +19,8 @@ PictureSize cells_of(const Grid& grid, const Slice& slice) {
     return {shown.width, shown.height};
 }
 
-/// The size before multiplication by `scale`: a pixel for each cell, or the requested size.
+/// Returns the size of a copy before multiplication by `scale`: a pixel for each cell or, if a size
+/// is requested, the largest size with which all copies fit into it.
 PictureSize unscaled_copy(const Grid& grid, const PictureRequest& picture) {
     const PictureSize cells = cells_of(grid, picture.slice);
     if (!picture.size) return cells;
@@ -100,7 +101,8 @@ Result<void> check_picture_size(const Script& script, const PictureRequest& pict
                                    most_picture_pixels),
                        hint);
     }
-    // An enlarged picture is first painted with one pixel for each cell.
+    // An enlarged picture is first painted with one pixel for each cell, which needs memory in
+    // addition.
     const std::int64_t pixels_of_cell = pixels_per_cell > 1 ? 1 + pixels_per_cell : 1;
     const auto pixels = static_cast<double>(count * pixels_of_cell);
     const double bytes = memory + pixels * sizeof(Colour);

@@ -1,5 +1,5 @@
-// The attributes red, green and blue become the colour. Normals are not copied but computed again.
-// All other attributes become numbers.
+// The attributes red, green and blue become the colour, and all other attributes become numbers.
+// Normals are not copied from the attributes but computed again.
 #include "run/pictures/plain_model.h"
 
 #include "core/enough_memory.h"
@@ -23,7 +23,7 @@ const PointAttribute* attribute_called(const SurfaceMesh& mesh, std::string_view
     return found == mesh.attributes.end() ? nullptr : &*found;
 }
 
-/// The attributes of the points of a mesh, in the form in which files contain them.
+/// The attributes of the points of a mesh, in the form in which files store them.
 struct PlainResults {
     std::vector<Colour> colours;
     std::vector<Channel> channels;

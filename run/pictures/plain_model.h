@@ -12,7 +12,8 @@
 namespace cascade {
 
 /// Writes a mesh with its colours and numbers by write_model() of export/. Returns sentences about
-/// data that the format cannot hold. Fails like write_model(), and if memory is exhausted.
+/// data that the format cannot hold. Fails in the same cases as write_model(), and if memory is
+/// exhausted.
 Result<std::vector<std::string>> write_plain_model(const std::filesystem::path& path,
                                                    const SurfaceMesh& mesh);
 

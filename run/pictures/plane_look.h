@@ -1,4 +1,5 @@
-// The appearance of a plane, or of a slice of a volume, in maps, and of a grid on a surface.
+// The appearance of a plane, or of a slice of a volume, in maps. Also the appearance of a grid that
+// is bent into a surface.
 #pragma once
 
 #include "export/flat_cells.h"
@@ -15,10 +16,9 @@ struct PlaneLook : CellLook {
     PlaneLook(const Canvas& canvas, ValueRange range, const Palette& palette, FlatCells plane);
 };
 
-/// The material of a canvas of a grid with a surface.
+/// Returns the material of a canvas of a grid that is bent into a surface.
 GridMaterial grid_material(const Canvas& canvas, const DomainSettings& domain);
 
-/// The material of a canvas of a grid with a surface.
 GridMaterial grid_material(const Canvas& canvas, const DomainSettings& domain);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Enlarges and shrinks images by the scales of lengths.
+// Enlarges and shrinks images so that lengths have the proportions of the domain.
 #include "run/pictures/proportions.h"
 
 #include "lang/program/grown_lengths.h"
@@ -44,7 +44,7 @@ Image in_proportion(Image image, const PlaneScales& scales) {
 Image in_largest(const Image& image, const PlaneScales& scales, const PlaneScales& largest) {
     if (scales == largest) return image;
     const double own = std::min(scales[0], scales[1]), least = std::min(largest[0], largest[1]);
-    // The image of the grid, on which cells are square.
+    // The size of the image on which each cell is a square.
     const std::int64_t width = times(image.width, own / scales[0]);
     const std::int64_t height = times(image.height, own / scales[1]);
     const std::int64_t whole_width = times(width, largest[0] / least);

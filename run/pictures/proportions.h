@@ -1,4 +1,5 @@
-// Pictures of planes and slices whose domain grows, in the proportions of the present moment.
+// Pictures of planes and slices in a domain that grows, with the proportions that the domain has at
+// the present moment.
 #pragma once
 
 #include "picture/image.h"
@@ -9,8 +10,8 @@
 
 namespace cascade {
 
-/// The lengths of a cell of the shown stage, across and down a plane or slice, divided by the
-/// spacing of the grid.
+/// The lengths of a cell of the shown stage, to the right and downwards in a plane or slice,
+/// divided by the spacing of the grid.
 using PlaneScales = std::array<double, 2>;
 PlaneScales scales_of_plane(const Simulation& simulation, const Slice& slice);
 
@@ -21,8 +22,8 @@ PlaneScales scales_of_body(const Simulation& simulation);
 /// The image of a plane with square cells, made longer along the axis along which cells are longer.
 Image in_proportion(Image image, const PlaneScales& scales);
 
-/// The image of in_proportion() as a part of a picture of the domain at its largest: the picture
-/// has the size of an image with the scales `largest`, and the domain is in its middle.
+/// Puts the image of in_proportion() into a picture of the domain at its largest. The picture has
+/// the size of an image with the scales `largest`, and the domain is in its middle.
 Image in_largest(const Image& image, const PlaneScales& scales, const PlaneScales& largest);
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
-// Colours are linear between points. The filter of cells is nearly linear over the distance chosen
-// here.
+// Colours are linear between points. The filter of cells is nearly linear over the distance between
+// points that is chosen here.
 #include "run/pictures/refined_model.h"
 
 #include "export/point_values.h"
@@ -13,8 +13,8 @@ namespace cascade {
 
 namespace {
 
-/// The distance between points, in distances between cells. The radius of the filter is two
-/// distances between cells.
+/// The distance between points, as a multiple of the distance between cells. The radius of the
+/// filter is twice the distance between cells.
 constexpr double colour_distance = 0.75;
 constexpr std::size_t most_triangles = std::size_t{1} << 23;
 

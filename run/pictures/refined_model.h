@@ -15,8 +15,8 @@ RefinedMesh refined_for_colours(const SurfaceMesh& mesh, const SurfaceCells& cel
 
 /// Raises the refined mesh `fine` along the smooth normals of `mesh`. `heights` has a height for
 /// each cell, in lengths of the mesh. These heights are filtered before use. The positions in
-/// `fine` refer to `mesh`. Heights that are not finite count as 0 at points near their cells. The
-/// result does not depend on the number of threads. Throws std::bad_alloc.
+/// `fine` refer to `mesh`. At points near a cell whose height is not finite, this height counts as
+/// 0. The result does not depend on the number of threads. Throws std::bad_alloc.
 RefinedMesh raised_model(RefinedMesh fine, const SurfaceMesh& mesh, const CellFilter& filter,
                          std::span<const float> heights, Team& team);
 

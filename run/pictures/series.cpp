@@ -1,4 +1,4 @@
-// A .pvd file is ParaView's collection: XML with a time and a file for each moment.
+// A .pvd file is ParaView's collection. It consists of XML with a time and a file for each moment.
 #include "run/pictures/series.h"
 
 #include "core/check.h"
@@ -37,7 +37,7 @@ std::string name_of_file(const std::filesystem::path& list, std::size_t number, 
     return fmt::format("{}/{:06}.{}", list.stem().string(), number, is_model ? "vtp" : "vti");
 }
 
-/// Whether a series with this list would use the name `file`.
+/// Whether a series with this list could have written a file with the name `file`.
 bool is_own(const std::filesystem::path& list, const std::string& file) {
     const std::string begin = list.stem().string() + "/";
     if (!file.starts_with(begin) || file.size() != begin.size() + 10) return false;
@@ -47,7 +47,7 @@ bool is_own(const std::filesystem::path& list, const std::string& file) {
            (name.ends_with(".vti") || name.ends_with(".vtp"));
 }
 
-/// The files in the list that belong to its own series.
+/// Returns the files in the list that the series of the list has written.
 std::vector<std::string> files_in(const std::filesystem::path& list) {
     std::vector<std::string> files;
     const auto text = read_file(list, largest_list);
@@ -137,7 +137,7 @@ public:
     Result<WrittenSeries> finish() override;
 
 private:
-    /// The mesh with the values of a model's cells.
+    /// The mesh at whose points a model's cells have values in files.
     struct Surface {
         explicit Surface(const ModelCells& model)
             : team(hardware_threads()),
@@ -146,7 +146,7 @@ private:
               refined(refined_for_colours(mesh, model.spread().cells)) {}
 
         Team team;
-        SurfaceMesh mesh;  ///< In the coordinates of the model's file.
+        SurfaceMesh mesh;  ///< The mesh in the coordinates of the model's file.
         CellFilter filter;
         RefinedMesh refined;
     };
@@ -160,9 +160,9 @@ private:
     Result<void> write_surface(const std::filesystem::path& path, const Simulation& simulation);
 
     std::filesystem::path path_;
-    std::vector<std::string> former_;  ///< The files of the previous list.
+    std::vector<std::string> former_;  ///< The files of the list that an earlier run has written.
     std::vector<Moment> moments_;
-    std::unique_ptr<Surface> surface_;  ///< Only for models. Made when it is first needed.
+    std::unique_ptr<Surface> surface_;  ///< Only used for models, and made when it is first needed.
     std::optional<Failure> failure_;
 };
 
@@ -212,7 +212,7 @@ Result<void> ParaviewSeries::write_surface(const std::filesystem::path& path,
 }
 
 Result<WrittenSeries> ParaviewSeries::finish() {
-    // If a moment has no time, moments are numbered instead.
+    // If any moment has no finite time, the indices of all moments are used as times.
     const bool has_times = std::all_of(moments_.begin(), moments_.end(), [](const Moment& moment) {
         return std::isfinite(moment.time);
     });

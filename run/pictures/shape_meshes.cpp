@@ -1,5 +1,5 @@
-// Each part of a shape has its own functions. They store the values of the last point, which later
-// calls reuse.
+// Each part of a shape has its own functions. A function stores its values at the last point, and
+// later calls for the same point reuse them.
 #include "run/pictures/shape_meshes.h"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double steps_of_range = 16;
 
-/// Makes a function of a point. Its copies share stored values.
+/// Makes a function of a point. Copies of the function share stored values.
 std::shared_ptr<ShapeFunction> function_of(const Formula& formula, std::span<const double> values,
                                            double part) {
     return std::make_shared<ShapeFunction>(formula, values, part);
@@ -41,7 +41,7 @@ SweptSurface surface_of(const ShapeForm& form, std::span<const double> values, d
     return surface_of(std::move(tube));
 }
 
-/// The rounding of the values of a quantity.
+/// Rounds the values of a quantity.
 struct Rounding {
     double low = 0, high = 0, step = 0;
 

@@ -1,4 +1,4 @@
-// The more cells there are, the smaller each of them appears, so the fewer facets it gets.
+// If there are more cells, each of them appears smaller, so it gets fewer facets.
 #include "run/pictures/shown_cells.h"
 
 #include "run/pictures/tissue_picture.h"
@@ -12,10 +12,11 @@ namespace cascade {
 
 namespace {
 
-/// The largest distance, in pixels, between facets and their shapes. It is the default of pictures.
+/// The largest distance, in pixels, between facets and their shapes. It is also the default of
+/// pictures.
 constexpr double shown_detail = 0.5;
 
-/// Meshes are made for pictures in which a length of 1 has this many pixels.
+/// Returns how many pixels long a length of 1 is in the pictures for which meshes are made.
 double pixels_for(std::size_t copies) {
     constexpr double most = 512, least = 64;
     constexpr double copies_of_most = 1000;

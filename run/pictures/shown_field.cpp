@@ -1,4 +1,4 @@
-// Fields are converted and cut before they are painted.
+// Converts and cuts fields before they are painted.
 #include "run/pictures/shown_field.h"
 
 #include <utility>

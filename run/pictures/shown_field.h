@@ -1,4 +1,5 @@
-// Fields as pictures show them: in binary32, and only one slice of a volume.
+// Converts fields to the form in which pictures show them: binary32, and a single slice of a
+// volume.
 #pragma once
 
 #include "core/plane.h"
@@ -11,7 +12,8 @@ namespace cascade {
 /// volume.
 Field shown(Field field, const PictureRequest& request);
 
-/// Prepares a copy of a field for painting. Cells outside the mask, which may be null, become NaN.
+/// Prepares a copy of a field for painting. Cells outside the mask become NaN. If `mask` is null,
+/// there is no mask.
 Field as_shown(const Field& field, const DomainMask* mask, const PictureRequest& request);
 
 }  // namespace cascade

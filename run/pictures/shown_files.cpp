@@ -1,4 +1,4 @@
-// Collects the arguments of the writer for each kind of thing.
+// Collects the arguments of the writer for each kind of content.
 #include "run/pictures/shown_files.h"
 
 #include "run/pictures/body_picture.h"
@@ -15,8 +15,8 @@
 namespace cascade {
 namespace {
 
-/// The species of the shown stage and, if requested, the number of the canvas, as numbers of the
-/// file.
+/// Makes channels for the species of the shown stage and, if requested, for the number of the
+/// canvas.
 std::vector<Channel> channels_of(const ShownThings& shown, const FieldNumbers& of_species,
                                  const FieldNumbers& of_canvas) {
     std::vector<Channel> channels = species_channels(shown.simulation, of_species);

@@ -1,4 +1,4 @@
-// Writes the content of a picture (a model, crawling cells, a body or a plane) to the files of
+// Writes the content of a picture (a model, crawling cells, a body or a plane) to those files of
 // option `-o` that other programs read as models.
 #pragma once
 
@@ -18,17 +18,18 @@ struct ShownThings {
     const Simulation& simulation;
     Painter& painter;
     const Canvas& canvas;        ///< The painter's last canvas of the simulation.
-    const MeshTexture& texture;  ///< Replaces the model's texture coordinates unless it is empty.
+    const MeshTexture& texture;  ///< Replaces the model's texture coordinates, unless it is empty.
     const ModelFileOptions& options;
-    PngTexts texts;  ///< Are written into maps.
-    /// Whether models and bodies also get the number of the canvas, as `shown`.
+    PngTexts texts;  ///< Texts that are written into maps.
+    /// Whether the number of the canvas is also written, under the name `shown`, for models and
+    /// bodies.
     bool has_number = false;
 };
 
 using FileWriter = std::function<Result<WrittenFiles>(const std::filesystem::path&)>;
 
-/// A function that writes one file. It computes what several files share only once. The references
-/// of `shown` must outlive it.
+/// Returns a function that writes one file. Data that several files need is computed only once. The
+/// references in `shown` must outlive the function.
 FileWriter writer_of(ShownThings shown);
 
 }  // namespace cascade

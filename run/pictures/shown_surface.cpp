@@ -1,5 +1,5 @@
-// Refines models in the same way as for files with vertex colours. The cell filter gives the values
-// of vertices.
+// Refines models in the same way as for files with colours of vertices. The values at vertices are
+// computed by the cell filter.
 #include "run/pictures/shown_surface.h"
 
 #include "export/refine.h"
@@ -22,15 +22,16 @@ namespace {
 
 constexpr std::size_t most_shown_triangles = std::size_t{1} << 20;
 
-/// The longest edge, in distances between cells. Along such an edge the filter, whose radius is two
-/// of these distances, is nearly linear.
+/// The longest edge, as a multiple of the distance between cells. Along such an edge the filter is
+/// nearly linear, because the radius of the filter is two distances between cells.
 constexpr double longest_edge = 0.75;
 
 /// The smallest number of quadrilaterals along a side of a function's surface. With fewer, the
 /// outline would not be smooth.
 constexpr double least_facets = 160;
 
-/// A copy of the mesh with a point for each normal, so that creases become boundaries.
+/// Returns a copy of the mesh in which a point has been divided so that it has a single normal. So
+/// creases become boundaries.
 SurfaceMesh cut_at_creases(const SurfaceMesh& mesh, const CornerNormals& corners) {
     SurfaceMesh cut;
     for (const std::uint32_t point : corners.points) cut.points.push_back(mesh.points[point]);
@@ -51,10 +52,11 @@ SurfaceMesh cut_at_creases(const SurfaceMesh& mesh, const CornerNormals& corners
     return cut;
 }
 
-/// A copy with fewer triangles. Empty if the mesh is already small or cannot be copied.
+/// Returns a copy with fewer triangles. Returns an empty optional if the mesh is already small or
+/// cannot be copied.
 std::optional<SurfaceMesh> reduced(const SurfaceMesh& mesh) {
     if (mesh.triangles.size() <= most_shown_triangles) return std::nullopt;
-    // In a mesh whose edges have been collapsed, triangles have at most this area.
+    // The largest area that triangles may have in the copy, whose edges have been collapsed.
     const double area = mesh.total_area() / static_cast<double>(most_shown_triangles / 2);
     auto copy = coarse_copy(mesh, std::sqrt(area * 4 / std::sqrt(3.0)));
     if (!copy) return std::nullopt;
@@ -92,8 +94,9 @@ ShownSurface shown_model(const ModelCells& model, Team& team) {
     return shown;
 }
 
-/// A lattice with two quadrilaterals for each cell along both axes. So there is a vertex at the
-/// centre of each cell and half-way between any two neighbours.
+/// Returns a lattice with an even number of quadrilaterals for each cell along both axes, so that
+/// there is a vertex at the centre of each cell and half-way between any two neighbours. If there
+/// would be too many triangles, the lattice is coarser.
 SurfaceLattice lattice_of(const Grid& grid) {
     const auto along = [](std::int64_t cells) {
         const auto side = static_cast<double>(cells);

@@ -13,8 +13,9 @@ namespace {
 
 Vector3d in_space(const Position& p) { return {p[0], p[1], p[2]}; }
 
-/// The gradient along the surface of a number whose derivatives along both parameters are given, at
-/// the parameters (s, t). 0 where the surface has no area.
+/// Returns the gradient along the surface of a number, at the parameters (s, t). `along_s` and
+/// `along_t` are the derivatives of the number with respect to the parameters. The result is 0
+/// where the surface has no area.
 Vector3d gradient(const SurfaceFunction& surface, double s, double t, double along_s,
                   double along_t) {
     constexpr double step = 1e-4;
@@ -28,7 +29,7 @@ Vector3d gradient(const SurfaceFunction& surface, double s, double t, double alo
     return (cross(b, normal) * along_s + cross(normal, a) * along_t) * (1 / area);
 }
 
-/// Whether most normals look towards the middle of the mesh.
+/// Whether most normals point towards the middle of the mesh.
 bool looks_inwards(const TriangleMesh& mesh) {
     const Vector3 middle = bounds(mesh).centre();
     double sum = 0;

@@ -1,4 +1,4 @@
-// The material of a grid that is bent into a surface, at any point of the surface.
+// Computes the material of a grid that is bent into a surface, at any point of the surface.
 #pragma once
 
 #include "mesh/triangle_mesh.h"
@@ -15,29 +15,31 @@ namespace cascade {
 
 /// The numbers of cells of a grid, row by row, for pictures of the grid on a surface.
 struct GridMaterial {
-    Material material;  ///< Each part has a number for each cell, or is empty.
+    Material material;  ///< Each part of the material has a number for each cell, or is empty.
     std::int64_t columns = 0, rows = 0;
     bool is_periodic_x = false, is_periodic_y = false;
-    /// The unit of the heights, in the lengths of the surface's function. If empty, it is the side
-    /// of a square with the mean area of a cell.
+    /// The unit of the heights, in lengths of the surface. If empty, it is the side of a square
+    /// with the mean area of a cell.
     std::optional<double> unit = {};
-    std::int64_t detail = 1;  ///< The number of parts of each cell of the script along a side.
+    /// The number of parts into which each cell of the script is divided along a side.
+    std::int64_t detail = 1;
 };
 
-/// Gloss, emitted light, opacity and bumps where a ray hits the surface. Numbers are interpolated
-/// linearly between the centres of cells.
+/// Computes gloss, emitted light, opacity and bumps where a ray hits the surface. Numbers are
+/// interpolated linearly between the centres of cells.
 class SurfaceFinish {
 public:
-    /// `mesh` is a mesh of the surface. Heights raise the surface to the side of its normals that
-    /// looks away from the middle of the mesh.
+    /// `mesh` is a mesh of the surface. Heights raise the surface away from the middle of the mesh.
     SurfaceFinish(const SurfaceFunction& surface, const GridMaterial& grid,
                   const TriangleMesh& mesh);
 
     bool is_translucent() const { return !material_.parts[MaterialPart::opacity].empty(); }
 
-    /// Sets the parts of a look that the material has. `x` and `y` are the cells around the point.
+    /// Sets those parts of a look that the material has. `x` and `y` are the cells around the
+    /// point.
     void add_to(Look& look, const BetweenCells& x, const BetweenCells& y) const;
-    /// The opacity at a point. If all opacities are 0 or 1, it is 0 or 1, too.
+    /// Returns the opacity at a point. If all cells have the opacity 0 or 1, the result is 0 or 1,
+    /// too.
     float opacity(const BetweenCells& x, const BetweenCells& y) const;
 
 private:
@@ -56,8 +58,8 @@ private:
 
     Material material_;
     std::int64_t columns_;
-    bool is_cut_ = false;          ///< Whether all opacities are 0 or 1.
-    bool is_flipped_ = false;      ///< Whether the normals of the mesh look towards its middle.
+    bool is_cut_ = false;          ///< Whether all cells have the opacity 0 or 1.
+    bool is_flipped_ = false;      ///< Whether the normals of the mesh point towards its middle.
     std::vector<Vector3> slopes_;  ///< The gradient of the height along the surface in each cell.
 };
 

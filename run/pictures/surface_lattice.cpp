@@ -8,7 +8,7 @@ namespace cascade {
 
 namespace {
 
-/// Averages the normals at joined sides where the positions of both sides coincide in space.
+/// Averages the normals at joined sides if the positions of both sides coincide in space.
 void join_normals(TriangleMesh& mesh, const SurfaceLattice& lattice) {
     const Box box = bounds(mesh);
     const float near = 1e-4F * length(box.high - box.low);

@@ -14,10 +14,11 @@ namespace cascade {
 
 namespace {
 
-/// The number of quadrilaterals along a side. With this number the outline is smooth for any grid.
+/// The number of quadrilaterals along a side of the mesh. With this number the outline is smooth
+/// for any grid.
 constexpr std::uint32_t facets = 384;
 
-/// The colour of the texture at the centre of a quadrilateral.
+/// Returns the colour of the texture at the centre of a quadrilateral.
 const Colour& middle_of(std::uint32_t quadrilateral, const Image& texture) {
     const auto texel = [](std::uint32_t facet, std::int64_t side) {
         return static_cast<std::int64_t>((facet + 0.5) / facets * static_cast<double>(side));
@@ -26,8 +27,8 @@ const Colour& middle_of(std::uint32_t quadrilateral, const Image& texture) {
                       texel(quadrilateral / facets, texture.height));
 }
 
-/// Removes the triangles on transparent parts of the texture. Returns the original indices of the
-/// remaining triangles.
+/// Removes the triangles on transparent parts of the texture. Returns the indices that the
+/// remaining triangles had before.
 std::vector<std::uint32_t> cut_holes(TriangleMesh& mesh, const Image& texture) {
     std::vector<std::uint32_t> numbers;
     std::size_t kept = 0;
@@ -41,7 +42,8 @@ std::vector<std::uint32_t> cut_holes(TriangleMesh& mesh, const Image& texture) {
     return numbers;
 }
 
-/// Interpolates between the visible ones of four texels. Returns `otherwise` if none is visible.
+/// Interpolates between four texels, of which only the texels that are not transparent count.
+/// Returns `otherwise` if all are transparent.
 Colour mix_of_seen(const std::array<std::pair<Colour, float>, 4>& texels, const Colour& otherwise) {
     Colour sum{};
     float weights = 0;

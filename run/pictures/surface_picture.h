@@ -11,7 +11,8 @@ namespace cascade {
 
 /// Draws `surface` with `texture`, which has a pixel for each cell, and with the material of the
 /// cells. Colours are interpolated linearly between the centres of cells, also across joined sides.
-/// Between the outermost centres and any other side they are constant. Throws std::bad_alloc.
+/// Near a side that is not joined, the colour of the outermost cell continues unchanged. Throws
+/// std::bad_alloc.
 Image draw_on_surface(const SurfaceFunction& surface, const Image& texture,
                       const GridMaterial& material, const DrawOptions& options, Team& team);
 

@@ -1,4 +1,4 @@
-// The surface below the cells is a model, a body or a floor. In a box there is none.
+// Below the cells there is a model, a body or a floor. In a box there is no surface.
 #include "run/pictures/tissue_picture.h"
 
 #include "picture/srgb.h"
@@ -30,7 +30,8 @@ void lay_flat(TriangleMesh& mesh) {
 
 namespace {
 
-/// A mesh whose corners are (0, 0), (0, 1), (1, 1) and (1, 0) of the plane.
+/// Returns a mesh whose corners are the points (0, 0), (0, 1), (1, 1) and (1, 0) of the plane, as
+/// fractions of its sides.
 TriangleMesh floor_of(Vector3d extent) {
     const auto point = [](double x, double z) {
         return Vector3{static_cast<float>(x), 0, static_cast<float>(z)};
@@ -43,7 +44,7 @@ TriangleMesh floor_of(Vector3d extent) {
     return mesh;
 }
 
-/// The colour of the floor where a ray hits it.
+/// Returns the colour of the floor where a ray hits it.
 Colour light_of_floor(const Image& colours, const Hit& hit) {
     const std::array<float, 3> weights = hit.weights();
     const float x = hit.triangle == 0 ? weights[2] : weights[1] + weights[2];
@@ -55,7 +56,8 @@ Colour light_of_floor(const Image& colours, const Hit& hit) {
     return light_of(colours.at(cell(x, colours.width), cell(y, colours.height)));
 }
 
-/// The light of a body where a ray hits it. Its triangles have been turned by lay_flat().
+/// Returns the light of a body where a ray hits it. The triangles of the body have been turned by
+/// lay_flat().
 Colour light_of_body(const DrawnCells& cells, const Hit& hit) {
     const auto& [a, b, c] = cells.body->triangles[hit.triangle];
     const std::array<std::uint32_t, 3> corners{a, c, b};
@@ -100,7 +102,7 @@ Image draw_cells(const DrawnCells& cells, std::span<const Colour> colours, const
         lay_flat(copies);
         if (cells.extent.z == 0) below = floor_of(cells.extent);
     }
-    // All cells may have died, or their size may be 0.
+    // There may be nothing to draw, because all cells have died or have the size 0.
     if (below.triangles.empty() && copies.triangle_count() == 0) {
         return empty_picture(options);
     }

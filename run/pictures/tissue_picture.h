@@ -14,15 +14,15 @@ class ModelDrawer;
 
 /// Draws the cells on their model, on their body, over their plane, or in a box without any
 /// surface. `colours` are in sRGB, in the order of the cells' numbers. `model` is null if there is
-/// none. `drawer` draws the coat of a model. Throws std::bad_alloc.
+/// no model. `drawer` draws the coat of a model. Throws std::bad_alloc.
 Image draw_cells(const DrawnCells& cells, std::span<const Colour> colours, const ModelCells* model,
                  ModelDrawer* drawer, const DrawOptions& options);
 
-// lay_flat() turns everything for pictures if there is no model, so that the plane's normal points
-// upwards. The y axis of scripts, which points downwards in pictures of planes, then points towards
-// the viewer. This swaps left and right.
+// If there is no model, lay_flat() turns everything so that the plane's normal points upwards in
+// pictures. The y axis of scripts, which points downwards in pictures of planes, points towards the
+// viewer after the turn. This swaps left and right.
 
-/// Mirrors the positions of copies, but not the shape of each copy.
+/// Mirrors the positions of copies, but does not mirror the shape of each copy.
 void lay_flat(Instances& copies);
 void lay_flat(TriangleMesh& mesh);
 

@@ -9,8 +9,8 @@ namespace cascade {
 
 struct WrittenFiles {
     std::vector<std::filesystem::path> paths;
-    std::vector<std::string> warnings = {};  ///< Each is a sentence.
-    /// Advice for readers of the files. Each is a sentence.
+    std::vector<std::string> warnings = {};  ///< Each warning is a sentence.
+    /// Advice for users of the files. Each note is a sentence.
     std::vector<std::string> notes = {};
 };
 

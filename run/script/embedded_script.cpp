@@ -22,7 +22,8 @@ constexpr const char* key_seed = "Cascade seed";
 constexpr const char* key_picture = "Cascade picture";
 constexpr const char* key_sweep = "Cascade sweep";
 
-/// The strings in the chunk of a sweep's sheet. Empty if the chunk is not a list of strings.
+/// Reads the strings in the chunk of a sweep's sheet. Returns no strings if the chunk is not a list
+/// of strings.
 std::vector<std::string> texts_of(const std::string& text) {
     if (!is_small_json(text)) return {};
     const auto json = nlohmann::json::parse(text, nullptr, false);
@@ -113,8 +114,8 @@ Overrides merge(Overrides base, const Overrides& changes) {
     if (changes.member) base.member = changes.member;
 #include "run/script/override_options.def"
     if (changes.model) {
-        // A picture stores only the file name of its model, but the user gives its present path. So
-        // file names are compared.
+        // A picture stores only the name of its model's file, without the folder, but the user
+        // gives the present path. So only the names of files are compared.
         const bool is_same_model =
             base.model && std::filesystem::path(*base.model).filename() ==
                               std::filesystem::path(*changes.model).filename();

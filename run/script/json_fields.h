@@ -70,8 +70,8 @@ public:
         const nlohmann::json* const member = is_sound_ ? find(name) : nullptr;
         if (member != nullptr) is_sound_ = from_json_value(*member, value);
     }
-    /// Reads a text and parses it. `parse` returns an optional, which is empty if the text is
-    /// invalid.
+    /// Reads a text, and sets the value to what `parse` returns for it. `parse` returns an
+    /// optional, which is empty if the text is invalid.
     template <typename T, typename Parse>
     void read(const char* name, std::optional<T>& value, const Parse& parse) {
         std::optional<std::string> text;

@@ -1,5 +1,6 @@
 // Options with a special syntax, such as --grid 64x32 and --mesh horse.ply, become nodes of the
-// syntax tree directly. The values of other options are parsed as expressions.
+// syntax tree without being parsed as expressions. The values of all other options are parsed as
+// expressions.
 #include "run/script/option_statements.h"
 
 #include "lang/program/models.h"
@@ -45,7 +46,7 @@ public:
         }
     }
 
-    /// Adds a model: the built-in shape of that name if there is one, or else a file.
+    /// Adds a model: the built-in shape of that name or, if there is none, a file.
     void add_model(const std::string& model) {
         ast::Statement& statement = begin("mesh", model);
         const Span span = statement.span;

@@ -1,4 +1,4 @@
-// Converts requests to and from JSON.
+// Converts requests for pictures to and from JSON.
 #include "run/script/picture_request.h"
 
 #include "core/json_size.h"
@@ -46,7 +46,8 @@ std::string name_of(const std::optional<Colour>& background) {
 
 namespace {
 
-/// The kinds of values in picture_options.def: how JSON stores them, and which of them are valid.
+/// Functions for the kinds of values in picture_options.def. They say how JSON stores a value, and
+/// which values are valid.
 namespace stored_values {
 
 using Json = nlohmann::json;
@@ -60,7 +61,7 @@ T& filled(std::optional<T>& value) {
     return value ? *value : value.emplace();
 }
 
-/// The functions that write and read a value. `read` returns false if the JSON or the value is
+/// Two functions, which write and read a value. `read` returns false if the JSON or the value is
 /// invalid.
 template <typename Write, typename Read>
 struct Stored {
@@ -68,7 +69,7 @@ struct Stored {
     Read read;
 };
 
-/// Values for which JSON has a type.
+/// Stores a value as a value of JSON. `is_sensible` tells whether a value that was read is valid.
 template <typename IsSensible>
 auto plain(IsSensible is_sensible) {
     return Stored{[](auto value) -> Json { return filled(value); },
@@ -97,7 +98,7 @@ auto flag() {
 }
 auto yes_or_no() { return flag(); }
 
-/// Pairs of two members.
+/// Stores two members of a value as a pair.
 template <typename T, typename First, typename Second>
 auto both(First T::*first, Second T::*second) {
     return Stored{[=](auto value) -> Json {
@@ -129,7 +130,7 @@ auto slice() {
                   }};
 }
 
-/// Values that are stored by their names. `named` converts a name to an optional or a Result.
+/// Stores a value by its name. `named` converts a name to an optional or a Result.
 template <typename Named>
 auto by_name(Named named) {
     return Stored{[](const auto& value) -> Json { return name_of(value); },

@@ -23,14 +23,14 @@ struct PictureSize {
 /// The default size of pictures that are drawn from a viewpoint in space.
 inline constexpr PictureSize usual_size{800, 600};
 
-/// A picture of a plane may show several copies of the plane side by side. These are their numbers.
+/// The numbers of copies that a picture of a periodic plane shows side by side.
 struct PictureCopies {
     int across = 1, down = 1;
     bool operator==(const PictureCopies&) const = default;
 };
-inline constexpr int most_copies = 16;  ///< Along each axis.
+inline constexpr int most_copies = 16;  ///< The largest number of copies along each axis.
 
-/// The largest number of parts of a cell along each axis.
+/// Each cell may be divided into at most this number of smaller cells along each axis.
 inline constexpr int most_detail = 8;
 
 /// The options of `cascade run` that determine the appearance of a picture. They are stored in the
@@ -49,7 +49,7 @@ bool makes_sense(const PictureSize& size);
 bool makes_sense(const PictureCopies& copies);
 bool makes_sense(const Slice& slice);
 
-/// Whether two values of an option differ. Of views, only the directions are compared.
+/// Whether two values of an option differ. Two views are compared only by their directions.
 template <typename T>
 bool differ(const T& a, const T& b) {
     return a != b;
@@ -58,14 +58,16 @@ inline bool differ(const View& a, const View& b) {
     return a.azimuth != b.azimuth || a.elevation != b.elevation;
 }
 
-/// A request for the default picture of an expression, or of the script if `expression` is empty.
+/// Makes a request for the default picture of an expression. If `expression` is empty, makes a
+/// request for the picture of the script.
 inline PictureRequest picture_of(std::string expression) {
     PictureRequest request;
     request.show = std::move(expression);
     return request;
 }
 
-/// The background with this name, such as "none" or "#204060". Fails for unknown names.
+/// Returns the background with this name, such as "none" or "#204060". Fails if the name is
+/// unknown.
 Result<std::optional<Colour>> background_named(std::string_view name);
 std::string name_of(const std::optional<Colour>& background);
 

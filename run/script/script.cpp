@@ -40,7 +40,8 @@ public:
     }
 
     void run() {
-        // While a file is read, the files that it uses are appended to this list.
+        // Each file that is read may append the files that it uses to this list, so the list grows
+        // during the loop.
         for (std::size_t k = 0; k < script_.tree.uses.size(); ++k) {
             const ast::Use use = script_.tree.uses[k];
             const auto folder = folders_.find(use.span.source);
@@ -63,7 +64,8 @@ private:
     void set_folder_of_files(ast::ExprId first, const std::filesystem::path& folder);
 
     Script& script_;
-    std::set<std::string> taken_;  ///< Paths relative to the script's folder.
+    /// The paths of the files that were read, relative to the script's folder.
+    std::set<std::string> taken_;
     std::unordered_map<SourceId, std::filesystem::path> folders_;
 };
 
@@ -95,8 +97,8 @@ void UsedFiles::add(const std::filesystem::path& path, const std::string& text) 
     set_folder_of_files(first, path.parent_path());
 }
 
-/// A used file gives the paths of data files relative to its own folder. Makes them relative to the
-/// script's folder.
+/// A used file gives the paths of data files relative to its own folder. This function makes the
+/// paths relative to the script's folder.
 void UsedFiles::set_folder_of_files(ast::ExprId first, const std::filesystem::path& folder) {
     if (folder.empty()) return;
     auto& expressions = script_.tree.expressions;
@@ -117,7 +119,7 @@ void UsedFiles::set_folder_of_files(ast::ExprId first, const std::filesystem::pa
 /// functions to the tree. A path is relative to the folder of the file that contains it. Each file
 /// is read only once, even if it is named several times or in a cycle. Files whose texts are in
 /// `script.overrides.used` are not read. Afterwards, that list contains the texts of all files.
-/// Errors are reported at the name of the file.
+/// Errors are reported at the place where the script names the file.
 void load_used_files(Script& script) { UsedFiles(script).run(); }
 
 }  // namespace
@@ -228,7 +230,7 @@ void check_views(Script& script) {
     if (script.program->stages.empty()) return;
     const std::uint32_t stage = script.final_stage();
     const std::uint32_t last = script.stage_count() - 1;
-    // With --until-stage, the picture may name stages that do not run, which is no error in the
+    // With --until-stage, the picture may name stages that do not run, which is not an error of the
     // script. So the picture is checked only if all stages run.
     if (last + 1 != script.program->stages.size()) return;
     const Program& program = *script.program;
@@ -243,8 +245,8 @@ void check_views(Script& script) {
                                      "use rgb(…) or palette(value, low, high, \"name\")");
         }
     }
-    // These diagnostics are ignored, because the checker of the picture block has reported the same
-    // errors.
+    // The checker of the picture block has already reported these errors, so the diagnostics are
+    // ignored.
     Diagnostics unspoken;
     for (const char* const setting :
          {"height", "roughness", "metalness", "opacity", "emission", "body"}) {
@@ -308,8 +310,8 @@ Result<void> check_for_fields(const Script& script, std::string_view what) {
 Result<LoadedFile> load_script_file(const std::filesystem::path& path, Overrides overrides) {
     constexpr std::uint64_t largest_picture = std::uint64_t{1} << 30;
     constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
-    // A picture may be larger than any script. From a pipe or device, no more bytes are read than a
-    // script may have.
+    // A picture may be larger than a script. From a pipe or a device, at most as many bytes are
+    // read as a script may have.
     const bool is_picture = first_bytes(path, signature.size()) == signature;
     auto bytes = read_file(path, is_picture ? largest_picture : largest_script);
     if (!bytes) {

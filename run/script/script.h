@@ -20,30 +20,34 @@
 
 namespace cascade {
 
-/// Changes to a script from outside. They are stored in pictures and saved runs.
+/// Changes that options make to a script. They are stored in pictures and saved runs.
 struct Overrides {
-    std::vector<std::string> sets;  ///< Settings in the order given, such as "large.ka=1/400".
+    /// Settings such as "large.ka=1/400", in the order in which the user gave them.
+    std::vector<std::string> sets;
     std::optional<GridSize> grid;
     /// Whether --grid has a single number, as in --grid 100. The domain is then a line of cells.
-    /// Not stored in pictures and saved runs.
+    /// This is not stored in pictures and saved runs.
     bool grid_is_one_number = false;
 #define CASCADE_OVERRIDE(type, member, ...) std::optional<type> member;
 #include "run/script/override_options.def"
 
-    /// Path and text of all files with systems and functions that the script uses and that could be
-    /// read. With these texts a picture can be drawn again without the files.
+    /// The paths and texts of all files with systems and functions that the script uses and that
+    /// could be read. With these texts a picture can be drawn again without the files.
     std::vector<std::pair<std::string, std::string>> used;
-    ReadAccess reads;   ///< The files that may be read. Not stored in pictures and saved runs.
-    bool fast = false;  ///< Whether steps are computed with fewer roundings.
+    /// The files that may be read. This is not stored in pictures and saved runs.
+    ReadAccess reads;
+    bool fast = false;  ///< Whether steps are computed with fewer roundings (--fast).
     /// A model that replaces the domain: the path of a file, or the name of a built-in shape.
     std::optional<std::string> model;
-    /// Whether the user gave `model` on the command line. If so, the file may be in any folder. Not
-    /// stored in pictures and saved runs.
+    /// Whether the user gave `model` on the command line. If so, the file may be in any folder.
+    /// This is not stored in pictures and saved runs.
     bool model_is_asked_for = false;
-    /// See DomainSettings. Set by Script::detailed(). Not stored in pictures and saved runs.
+    /// See DomainSettings::detail. Script::detailed() sets it. It is not stored in pictures and
+    /// saved runs.
     std::int64_t detail = 1;
-    std::int64_t coarse = 1;  ///< See DomainSettings. Set by Script::coarser(). Not stored in
-                              ///< pictures and saved runs.
+    /// See DomainSettings::coarse. Script::coarser() sets it. It is not stored in pictures and
+    /// saved runs.
+    std::int64_t coarse = 1;
 
     friend bool operator==(const Overrides&, const Overrides&) = default;
 };
@@ -53,13 +57,14 @@ struct Script {
     Script() = default;
     Script(Script&&) = default;
     Script& operator=(Script&&) = default;
-    Script(const Script&) = delete;  // The tree refers to the sources in the same script.
+    // A script cannot be copied, because its tree refers to its own sources.
+    Script(const Script&) = delete;
     Script& operator=(const Script&) = delete;
 
-    /// The script's name in messages, such as "examples/leopard.cascade", as the user typed it or
-    /// as a picture or a saved run stores it.
+    /// The script's name in messages, such as "examples/leopard.cascade". This is the name that the
+    /// user typed or that a picture or saved run stores.
     std::string name;
-    /// The file that the user named: the script, or the picture or saved run that contains the
+    /// The file that the user named. It is the script, or a picture or saved run that contains the
     /// script.
     std::filesystem::path file;
     std::string text;
@@ -71,19 +76,19 @@ struct Script {
     ast::Script tree;
     std::shared_ptr<const Program> program;
 
-    /// The same script, loaded again for smaller cells: `times` cells replace one along each axis.
-    /// Its program is null if there is an error.
+    /// Loads the same script again for smaller cells: along each axis, `times` cells replace one
+    /// cell. If there is an error, the result has no program.
     Script detailed(std::int64_t times) const;
-    /// The program of this script, checked again for cells that are `times` as wide. Stages with
-    /// coarser grids use it. The script must have no errors.
+    /// Checks the program of this script again for cells that are `times` as wide. Stages with
+    /// coarser grids use the result. The script must have no errors.
     Program coarser(std::int64_t times) const;
 
-    /// All diagnostics as text.
+    /// Writes all diagnostics as text.
     std::string messages(bool colour) const;
-    /// The last stage that takes a step, or the last stage if no stage takes one.
+    /// Returns the last stage that takes a step, or the last stage if no stage takes a step.
     std::uint32_t final_stage() const;
-    /// The number of stages that run: all stages or, if `until_stage` is given, the stages up to
-    /// it.
+    /// Returns the number of stages that run. If `until_stage` is given, these are the stages up to
+    /// and including that stage. Otherwise they are all stages.
     std::uint32_t stage_count() const;
 };
 
@@ -97,40 +102,40 @@ Script load_script(std::string name, std::string text, std::filesystem::path fol
                    Overrides overrides = {});
 
 /// A script read from a file. If the file is a PNG that Cascade wrote, the script in it is loaded
-/// with its stored overrides, and members that are set in `overrides` replace stored members. Fails
+/// with its stored overrides, except that members set in `overrides` replace stored members. Fails
 /// if the file cannot be read.
 struct LoadedFile {
     Script script;
     std::string picture_options;  ///< For a PNG, its PictureRequest as JSON. Empty for a script.
-    /// For a sheet of a sweep, the values of its options --vary, in order.
+    /// For a sheet of a sweep, the values of its options --vary, in the order of the options.
     std::vector<std::string> varied = {};
     std::string session = {};  ///< For a picture of a session, its log as text. Otherwise empty.
 };
 Result<LoadedFile> load_script_file(const std::filesystem::path& path, Overrides overrides = {});
 
-/// A hint for scripts without stages: "add 'stage spots: mine { }'". It names the last system that
-/// the script defines, if any.
+/// Returns a hint for scripts without stages: "add 'stage spots: mine { }'". The hint names the
+/// last system that the script defines, if the script defines a system.
 std::string example_of_stage(const Program& program);
 
-/// The default name of outputs without an ending: "leopard" for "examples/leopard.cascade". It
-/// comes from the file that the user named, even if that file contains another name for the script.
-/// "cascade" if there is no file.
+/// Returns the default name of outputs, without an ending: "leopard" for
+/// "examples/leopard.cascade". It comes from the file that the user named, even if that file
+/// contains another name for the script. If there is no file, it is "cascade".
 std::string output_stem(const Script& script);
 
-/// The name of the script for pages, which name files after it. A text without a file has the name
-/// of its outputs, such as "cascade.cascade" in place of "<standard input>".
+/// Returns the name of the script for pages, which name files after it. If there is no file, it is
+/// made from the name of outputs, such as "cascade.cascade" in place of "<standard input>".
 std::string shown_name(const Script& script);
 
-/// A span for messages about an option. The option's value becomes a source text with the name
-/// `<--option>`.
+/// Makes a span for messages about an option. The option's value becomes a source text with the
+/// name `<--option>`.
 Span option_span(Sources& sources, const std::string& option, const std::string& value);
 
-/// The stage with the name `asked`. If there is none and `asked` is a number, the stage with that
-/// number, counted from 1. Fails with a list of the names.
+/// Returns the stage with the name `asked`. If no stage has this name and `asked` is a number,
+/// returns the stage with that number, counted from 1. Otherwise fails with a list of the names.
 Result<std::uint32_t> find_stage(const Program& program, const std::string& asked);
 
-/// The stage that an option names. Reports an error at `span` if there is no such stage. The script
-/// must have a program.
+/// Returns the stage that an option names. Adds an error at `span` if there is no such stage. The
+/// script must have a program.
 std::optional<std::uint32_t> find_stage_of_option(Script& script, const std::string& name,
                                                   Span span);
 

@@ -1,4 +1,4 @@
-// Searches two folders for files with the name of the script, and recognises the script by its
+// Looks in two folders for files with the name of the script, and recognises the script by its
 // text.
 #include "run/script/script_folder.h"
 
@@ -26,7 +26,8 @@ struct Namesake {
     std::string name, text;
 };
 
-/// The files with this name in the current folder and in the folder that contains the saved run.
+/// Returns the files with this name in the current folder and in the folder that contains the saved
+/// run.
 std::vector<Namesake> namesakes(const fs::path& saved, const std::string& name) {
     const fs::path here = fs::path(portable_path(name));
     const fs::path above = (saved / "..").lexically_normal();

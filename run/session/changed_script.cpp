@@ -1,4 +1,5 @@
-// Numbers set in a session become settings from outside, like settings by --set.
+// Numbers that are set in a session are added to the overrides of the script, as settings by --set
+// are.
 #include "run/session/changed_script.h"
 
 #include "run/script/embedded_script.h"
@@ -11,7 +12,7 @@
 namespace cascade {
 namespace {
 
-/// The name in `NAME=EXPR` or `NAME: EXPR`, without blanks around it.
+/// Returns the name in `NAME=EXPR` or `NAME: EXPR`, without blanks around it.
 std::string_view name_of_setting(std::string_view setting) {
     setting = setting.substr(0, setting.find_first_of("=:"));
     const std::size_t begin = setting.find_first_not_of(" \t");
@@ -20,7 +21,7 @@ std::string_view name_of_setting(std::string_view setting) {
 }
 
 void set_number(Overrides& overrides, const SetNumber& number) {
-    // Only the last setting of a name counts, so earlier ones are removed.
+    // Only the last setting of a name counts, so earlier settings of the name are removed.
     std::erase_if(overrides.sets, [&](const std::string& set) {
         return name_of_setting(set) == name_of_setting(number.name);
     });

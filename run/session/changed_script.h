@@ -10,16 +10,16 @@
 
 namespace cascade {
 
-/// The script with another text. An option such as --set is dropped if its parameter no longer
-/// exists in the text.
+/// Returns the script with another text. Drops each option, such as --set, whose parameter no
+/// longer exists in the text.
 Script with_text(const Script& old, const std::string& text);
 
-/// The script with another value of a parameter or setting. It has no program if the value is
-/// invalid.
+/// Returns the script with another value of a parameter or setting. If the value is invalid, the
+/// result has no program.
 Script with_number(const Script& script, const SetNumber& number);
 
-/// The script at the end of a session, with `options` added. The session is not repeated, so the
-/// result includes changes that a repetition would refuse.
+/// Returns the script at the end of a session, with `options` added. The session is not repeated,
+/// so the result includes changes that would be refused if the session were repeated.
 Script script_at_end(const SessionLog& log, const std::filesystem::path& folder,
                      const Overrides& options);
 

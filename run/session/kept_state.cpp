@@ -22,7 +22,8 @@ namespace cascade {
 
 namespace {
 
-// Crawling cells from a stored state, and the changed stage that continues with them.
+// CellChange makes crawling cells from a stored state, for the changed stage that continues with
+// them.
 
 using Values = std::vector<double>;
 
@@ -68,14 +69,15 @@ private:
         return species ? record_.species[species->index()] : record_.kept[item.index()];
     }
 
-    /// The index of an item among all stored items. If the item is not stored, the number of stored
-    /// items.
+    /// Returns the index of an item among all stored items, or the number of stored items if the
+    /// item is not stored.
     std::size_t kept_item(ItemId item) const {
         const auto found = std::ranges::find(kept_.items, system().item_name(item));
         return static_cast<std::size_t>(found - kept_.items.begin());
     }
 
-    /// The stored values of the item with this name. Empty if it was uniform.
+    /// Returns the stored values of the item with this name. Returns no values if the item was
+    /// uniform.
     Values kept_values(ItemId item) const {
         const auto found = std::ranges::find(kept_.species, system().item_name(item));
         const auto species = static_cast<std::size_t>(found - kept_.species.begin());
@@ -98,21 +100,21 @@ private:
         const std::size_t frozen = system().frozen_item().index();
         record_.frozen.reset();
         if (!record_.kept[frozen].empty()) record_.frozen = frozen;
-        // Lengths of steps are chosen anew.
+        // The lengths of steps are chosen anew.
         record_.stiffest.clear();
         record_.time.control = {};
         record_.time.stiffness = 0;
         record_.time.estimated_at = -1;
     }
 
-    /// The index of the stored stage in its program.
+    /// Returns the index of the stored stage in its program.
     std::uint32_t stage_of(const Simulation& before) const {
         const auto& stages = before.domain().program->stages;
         const auto found = std::ranges::find(stages, kept_.name, &Stage::name);
         return static_cast<std::uint32_t>(found - stages.begin());
     }
 
-    /// Whether the start now gives a parameter other values than it gave before.
+    /// Whether the start of the stage gives a parameter other values now than before.
     bool is_changed(ItemId item, const std::vector<Values>& now,
                     const std::vector<Values>& then) const {
         const auto& restarts = system().cells->restarts;
@@ -131,19 +133,20 @@ private:
     std::vector<ItemId> missing_;  ///< Items for which there are no values.
 };
 
-/// Gives the stored cells to a started stage of a changed program. Each quantity takes the values
-/// of the stored quantity of the same name. If no values are stored, a quantity is computed from
-/// the start instead, at the present positions of the cells. So is a parameter that was not
-/// painted, if the start now gives it other values than in `before` (may be null). A value that
-/// restarts at divisions is only changed by divisions. Fails if a quantity has neither a value nor
-/// a start.
+/// Gives the stored cells to a started stage of a changed program. A quantity takes the values of
+/// the stored quantity with the same name. If no values are stored, the quantity is computed from
+/// the start of the stage, at the present positions of the cells. A parameter that was not painted
+/// is also computed from the start if the start now gives it other values than in `before`, which
+/// may be null. A value that restarts at divisions is changed only by divisions. Fails if a
+/// quantity has neither a stored value nor a start.
 Result<void> go_on_with_cells(Simulation& simulation, const Simulation* before, std::uint32_t stage,
                               const KeptStage& kept, const StageMoment& moment) {
     return CellChange(simulation, stage, kept).make(before, moment);
 }
 
-/// The stored stage from which stage `k` of a program continues. Null if there is none. Crawling
-/// cells never continue as a field, nor a field as crawling cells.
+/// Returns the stored stage from which stage `k` of a program continues, or null if there is none.
+/// A stage of crawling cells never continues from a stage of fields, and a stage of fields never
+/// continues from a stage of crawling cells.
 const KeptStage* counterpart(const Program& program, std::uint32_t k, const KeptState& state) {
     if (k >= state.stages.size()) return nullptr;
     const KeptStage& kept = state.stages[k];
@@ -162,11 +165,11 @@ bool is_over(const Program& program, std::uint32_t k, const StageState& state,
     return then.t >= duration_of(stage, program.system_of(k), state);
 }
 
-/// The moment at which stage `k` of a program goes on.
+/// Returns the moment from which stage `k` of a program goes on.
 StageMoment moment_of(const Simulation& simulation, std::uint32_t k, const KeptStage& kept,
                       Continuation how, bool is_current) {
     if (how == Continuation::same) return kept.record;
-    // Lengths of steps are chosen anew, so the state of the step control is not copied.
+    // The lengths of steps are chosen anew, so the state of the step control is not copied.
     StageMoment moment;
     moment.steps = kept.record.steps;
     moment.t = kept.record.t;
@@ -176,8 +179,8 @@ StageMoment moment_of(const Simulation& simulation, std::uint32_t k, const KeptS
     return moment;
 }
 
-/// Gives a started stage the kept fields: painted ones, and species unless the stage starts anew.
-/// Returns the names of the painted ones.
+/// Gives the stored fields to a started stage: all painted items and, unless the stage starts anew,
+/// the species. Returns the names of the painted items.
 PaintedNames go_on_with_fields(Simulation& simulation, std::uint32_t k, const KeptStage& kept,
                                StageMoment moment, bool is_anew) {
     const Program& program = *simulation.domain().program;
@@ -210,7 +213,7 @@ bool is_same(const Formula& first, const Formula& second) {
                       });
 }
 
-/// Expressions that read files never count as the same, because files are read again.
+/// Expressions that read files never count as the same, because the files are read again.
 bool is_same(const std::optional<Formula>& first, const std::optional<Formula>& second) {
     const auto reads = [](const Node& node) { return node.calls(Function::field); };
     if (first && std::ranges::any_of(first->nodes, reads)) return false;
@@ -224,7 +227,8 @@ bool is_same(const std::optional<DirectionSettings>& first,
            is_same(first->height, second->height) && first->smoothing == second->smoothing;
 }
 
-/// Whether two programs have the same model, apart from its seed. False if they have no model.
+/// Whether two programs have the same model, apart from its seed. False if one of them has no
+/// model.
 bool have_same_model(const Program& before, const Program& after) {
     const auto& first = before.domain.model;
     const auto& second = after.domain.model;

@@ -1,5 +1,5 @@
-// Goes to a stage, and implements undo and redo. Values from many changes ago are computed again by
-// repeating the log.
+// Goes to a stage, and implements undo and redo. If values are no longer stored, because many
+// changes followed, they are computed again by repeating the log.
 #include "run/session/live_run.h"
 
 #include <fmt/format.h>
@@ -29,10 +29,10 @@ Accepted<void> LiveRun::go_to(std::uint32_t stage, RunControl& control) {
     auto adopted = adopt(std::move(script), *before.values, Continuation::changed, control, stage);
     if (!adopted) return adopted;
     if (stage > 0) {
-        // Starting the stage cannot be cancelled, because the same cancellation would also end the
-        // return to the previous moment.
+        // Starting the stage cannot be cancelled. A cancellation would also prevent the return to
+        // the previous moment.
         if (auto started = start_stage(stage, never_cancelled); !started) {
-            // The values of the previous stage have not changed.
+            // No step was taken, so the values of the previous stage are unchanged.
             const auto back = return_to(before, control);
             return back ? started : back;
         }
@@ -102,9 +102,9 @@ void LiveRun::forget_old_values() {
             Moment& moment = (*moments)[k];
             if (moment.values) bytes += moment.values->bytes();
             if (bytes > undo_memory_) moment.values.reset();
-            // Texts and logs cannot be computed again. So if they need too much memory, the whole
-            // moment is deleted. A moment without values is also deleted if the log cannot compute
-            // them again.
+            // Texts and logs cannot be computed again. So if they need too much memory, the moment
+            // is deleted. A moment without values is also deleted if the log cannot reproduce its
+            // values.
             const bool is_lost = is_resumed_ && !moment.values;
             other += moment.text.size() + moment.log.text.size() +
                      moment.log.changes.size() * sizeof moment.log.changes[0];

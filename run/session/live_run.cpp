@@ -1,6 +1,6 @@
 // Every change makes a new simulation, which continues from stored values with the changed script.
-// Kernels and the cells of a model pass from one simulation to the next, so that only the
-// differences are computed.
+// Each new simulation takes over kernels and the cells of a model from the previous one, so that
+// only the differences are computed.
 #include "run/session/live_run.h"
 
 #include "lang/check/check.h"
@@ -15,7 +15,7 @@
 namespace cascade {
 namespace {
 
-/// The bytes of a change that may be large: a text, or values of all cells.
+/// Returns the bytes of the parts of a change that may be large: a text, or values of all cells.
 std::size_t bytes_of(const Change& change) {
     if (const auto* text = std::get_if<SetText>(&change)) return text->text.size();
     if (const auto* set = std::get_if<SetValues>(&change)) {
@@ -92,7 +92,8 @@ Accepted<std::unique_ptr<LiveRun>> LiveRun::begin(Script script, const Simulatio
     if (!run) return run;
     auto started = (*run)->adopt(std::move(script), {}, Continuation::changed, control);
     if (!started) return tl::unexpected(std::move(started.error()));
-    // As long as the model stays the same, its cells now come from the present simulation.
+    // From now on, the present simulation provides the cells of the model as long as the model
+    // stays the same.
     (*run)->options_.known_model = nullptr;
     return run;
 }
@@ -269,7 +270,7 @@ Accepted<void> LiveRun::make(const NextStage&, RunControl& control) {
 }
 
 void LiveRun::add_to_log(const Change& change, RunPlace at) {
-    // A slider sets the same number many times. If it sets several values at the same step, only
+    // A slider sets the same number many times. Of the values that it sets at the same step, only
     // the last one counts and is logged. Every value is logged in two cases: after strokes, because
     // a uniform number removes painted values for good, and in a stage of crawling cells, because a
     // number that changes and changes back replaces the cells' own values.
@@ -300,7 +301,7 @@ Accepted<void> LiveRun::apply(const Change& change, RunControl& control, bool jo
     }
     const bool is_remembered = !joins_last || past_.empty();
     std::optional<Moment> before;
-    // Parts of a stroke come many times a second, and need no copy of all values.
+    // Parts of a stroke come many times a second, so values are copied only at its beginning.
     if (is_remembered || is_of_script(change)) before = present();
     const RunPlace at = place();
     if (std::holds_alternative<NextStage>(change) && control.checks_later && !is_over()) {
@@ -314,7 +315,7 @@ Accepted<void> LiveRun::apply(const Change& change, RunControl& control, bool jo
         return made;
     }
     if (place() == RunPlace() && at != RunPlace()) {
-        // The run has begun anew, so the log up to here is no longer needed.
+        // The run has begun anew, so the changes up to here are no longer needed.
         log_ = {script_->name, script_->text, script_->overrides, {}, {}};
     } else if (is_too_large) {
         log_ = {script_->name, script_->text, script_->overrides, {}, {}};

@@ -26,7 +26,7 @@ struct Watching {
     std::function<void()> observe;
     std::int64_t every = 0;
     std::function<void(std::uint32_t stage)> stage_ended;
-    /// Whether the next stage begins if the last step of a call has ended a stage.
+    /// Whether, if the last step of a call has ended a stage, the call also begins the next stage.
     bool begins_next = false;
 };
 
@@ -35,15 +35,15 @@ struct Watching {
 /// use this object at a time, but any thread may cancel long work through the RunControl.
 class LiveRun {
 public:
-    /// Starts the first stage of a checked script. Refused if the script has no stage.
+    /// Starts the first stage of a checked script. Refuses a script without stages.
     static Accepted<std::unique_ptr<LiveRun>> begin(Script script, const SimulationOptions& options,
                                                     RunControl& control);
-    /// Starts from the values that `restore` sets in a simulation of the script, for example the
-    /// values of a saved run.
+    /// Starts a run from the values that `restore` sets in a simulation of the script. These may be
+    /// the values of a saved run.
     static Accepted<std::unique_ptr<LiveRun>> resume(
         Script script, const SimulationOptions& options, RunControl& control,
         const std::function<Result<void>(const Script&, Simulation&)>& restore);
-    /// Repeats a session from beginning to end. Files that its script names are searched in
+    /// Repeats a session from beginning to end. Files that its script names are looked for in
     /// `folder`.
     static Accepted<std::unique_ptr<LiveRun>> play(const SessionLog& log,
                                                    const std::filesystem::path& folder,
@@ -60,62 +60,65 @@ public:
     /// Whether the log alone cannot reproduce this run, because the run began with the values of a
     /// saved run, or because the log would have needed more than `most_texts` bytes for values.
     bool is_resumed() const { return is_resumed_; }
-    /// All values that go_on() needs to continue from this moment.
+    /// Copies all values that go_on() needs to continue from this moment.
     KeptState values() const { return keep(*simulation_, painted_); }
 
-    /// Takes up to `count` steps, also across the ends of stages. Returns `stopped` if all of them
-    /// were taken, and `finished` if the last stage has ended. If values are not finite, fails and
-    /// returns to the last step at which they were finite.
+    /// Takes up to `count` steps, also across the ends of stages. Returns `stopped` if all these
+    /// steps were taken, and `finished` if the last stage has ended before. If values are not
+    /// finite, fails and returns to the last step at which they were finite.
     Result<StageEnd> advance(std::int64_t count, RunControl& control,
                              const Watching& watching = {});
 
-    /// Checks whether all values of the present step are finite. If not, fails like advance(). Must
-    /// be called after calls of advance() with RunControl::checks_later.
+    /// Checks whether all values of the present step are finite. If not, fails in the same way as
+    /// advance(). Must be called after calls of advance() with RunControl::checks_later.
     Result<void> check(RunControl& control);
 
-    /// Makes a change at the present step. A refused change has no effect. With `joins_last`,
-    /// undo() reverts this change together with the previous one, because both are parts of one
-    /// stroke or of one movement of a slider. Changing the domain's cells restarts the run.
+    /// Makes a change at the present step. A refused change has no effect. If `joins_last` is true,
+    /// this change and the previous one are parts of one stroke or of one movement of a slider, so
+    /// undo() reverts both together. Changing the domain's cells restarts the run.
     Accepted<void> apply(const Change& change, RunControl& control, bool joins_last = false);
 
-    /// Checks an expression whose value is a number, in the state of the current stage. If it is
-    /// invalid, the result is empty and messages are added to `errors`. They call the expression
-    /// `name`.
+    /// Checks an expression whose value is a number, in the state of the current stage. If the
+    /// expression is invalid, returns an empty optional and adds messages to `errors`. The messages
+    /// call the expression `name`.
     std::optional<Formula> number(const std::string& name, const std::string& expression,
                                   Diagnostics& errors);
 
     /// Goes to the start of a stage. Going back undoes later strokes, but not changes of the text
-    /// and of numbers. Going forward ends all stages before it in their present state.
+    /// and of numbers. Going forward ends all earlier stages in their present state.
     Accepted<void> go_to(std::uint32_t stage, RunControl& control);
 
-    /// Goes back to the moment before the last change, or forward again. Refused if there is no
-    /// such moment. If the values at that moment are no longer stored, they are computed again.
+    /// undo() goes back to the moment before the last change, and redo() goes forward again. Both
+    /// are refused if there is no such moment. If the values at that moment are no longer stored,
+    /// they are computed again.
     Accepted<void> undo(RunControl& control);
     Accepted<void> redo(RunControl& control);
     bool can_undo() const { return !past_.empty(); }
     bool can_redo() const { return !future_.empty(); }
 
-    /// The script at the beginning and all changes up to the present moment.
+    /// Returns the script at the beginning and all changes up to the present moment.
     SessionLog log() const;
 
     /// Called after every change with `is_step` false, and after every advance() with `is_step`
-    /// true. Receives the log, whose end is outdated, and the present moment.
+    /// true. Receives the present moment and the log, whose member `end` is outdated.
     using Listener = std::function<void(const SessionLog& log, RunPlace now, bool is_step)>;
     void tell(Listener listener) { listener_ = std::move(listener); }
 
-    /// Sets the most bytes of values that are stored for undo(), and the most bytes of texts and
-    /// logs. If values need more, the oldest are deleted and computed again when needed. If texts
-    /// need more, undo() can no longer return to the oldest moments.
+    /// Sets the largest number of bytes of the values that are stored for undo(), and of the texts
+    /// and logs that are stored for undo(). If values need more, the oldest values are deleted and
+    /// computed again when needed. If texts and logs need more, undo() can no longer return to the
+    /// oldest moments.
     void set_undo_memory(std::size_t values, std::size_t texts = most_texts) {
         undo_memory_ = values;
         undo_texts_ = texts;
     }
 
-    /// The most seconds for making the cells of the model that another text names. 0: no limit.
+    /// Limits the seconds for making the cells of the model that another text names. 0 means no
+    /// limit.
     void limit_models(double seconds) { options_.model_seconds = seconds; }
 
-    /// The most bytes of texts and of values in the log, and by default of texts in the moments
-    /// stored for undo(). A change of the text is refused if it needs more. Values that need more
+    /// The largest number of bytes of the texts and values in the log and, by default, of the texts
+    /// stored for undo(). A change of the text that needs more is refused. Values that need more
     /// are set, but from then on is_resumed() is true.
     static constexpr std::size_t most_texts = std::size_t{256} << 20;
 
@@ -125,7 +128,8 @@ private:
         SessionLog log;
         std::string text;
         Overrides overrides;
-        std::optional<KeptState> values;  ///< If empty, the values must be computed again.
+        /// If empty, the values must be computed again from the log.
+        std::optional<KeptState> values;
     };
 
     LiveRun() = default;
@@ -161,13 +165,14 @@ private:
     void forget_old_values();
     void add_to_log(const Change& change, RunPlace at);
 
-    SimulationOptions options_;  ///< Includes the stepper that all simulations share.
+    /// The options of all simulations, including the stepper that they share.
+    SimulationOptions options_;
     std::unique_ptr<Script> script_;
     std::unique_ptr<Simulation> simulation_;  ///< Refers to *script_.
     std::uint32_t stage_ = 0;
     bool is_resumed_ = false;
-    std::vector<PaintedNames> painted_;  ///< One for each stage.
-    SessionLog log_;                     ///< The end of the log may be outdated.
+    std::vector<PaintedNames> painted_;  ///< The names of the painted items of each stage.
+    SessionLog log_;                     ///< The log. Its member `end` may be outdated.
     Listener listener_;
     std::vector<Moment> past_, future_;
     std::size_t undo_memory_ = std::size_t{256} << 20, undo_texts_ = most_texts;

@@ -16,7 +16,7 @@
 namespace cascade {
 namespace {
 
-/// Ignores the places in a tissue's planes that hold no cell.
+/// Whether the value of a cell is not finite. Ignores positions of the planes that hold no cell.
 bool has_not_finite(const Field& values, const Tissue& tissue) {
     for (std::size_t cell = 0; cell < tissue.count(); ++cell) {
         if (!std::isfinite(value_in(values, tissue, cell))) return true;
@@ -33,7 +33,7 @@ tl::unexpected<Refusal> refuse_count(const SetValues& change, std::size_t cells)
                               change.item, cells));
 }
 
-/// The values of a grid, row by row.
+/// Makes a field from the values of a grid, row by row.
 Field field_of_rows(std::span<const double> values, const PlaneLayout& layout,
                     Precision precision) {
     Field field(layout, precision);
@@ -60,7 +60,7 @@ Accepted<void> LiveRun::paint(const std::string& name, const StrokeValues& value
     return state().tissue() != nullptr ? paint_cells(name, values) : paint_fields(name, values);
 }
 
-/// The item that a stroke changes: one that varies by cell.
+/// Finds the item that a stroke changes. Refuses items that do not vary by cell.
 Accepted<ItemId> LiveRun::painted_item(const std::string& name, const char* paintable) const {
     const Program& program = *script_->program;
     const System& system = program.system_of(stage_);
@@ -80,7 +80,7 @@ Accepted<ItemId> LiveRun::painted_item(const std::string& name, const char* pain
     return *item;
 }
 
-/// The values of the change's expression, in the cells of the domain or in crawling cells.
+/// Evaluates the expression of the change, in the cells of the domain or in crawling cells.
 Accepted<Field> LiveRun::painted_values(const Paint& change) {
     Diagnostics errors;
     const std::optional<Formula> formula = number("<paint>", change.expression, errors);

@@ -1,5 +1,5 @@
-// Changes are compared by address. If two logs have the same change at the same index, all changes
-// before it are the same, too, because logs only grow and shrink at their ends.
+// Changes are compared by address. If two logs have the same change at the same index, all earlier
+// changes are the same, too, because logs only grow and shrink at their ends.
 #include "run/session/open_log.h"
 
 #include <fmt/format.h>

@@ -16,12 +16,13 @@ namespace cascade {
 class OpenLog {
 public:
     struct Lines {
-        bool replaces_all = false;  ///< Whether `text` is the whole log, rather than an addition.
-        std::string text;           ///< Empty if nothing has changed.
+        /// Whether `text` is the whole log. If not, it is an addition to the lines written so far.
+        bool replaces_all = false;
+        std::string text;  ///< Empty if nothing has changed.
     };
 
-    /// The lines to write since the last call. `log` is the present log, and `now` the present
-    /// moment.
+    /// Returns the lines to write since the last call. `log` is the present log, and `now` is the
+    /// present moment.
     Lines lines(const SessionLog& log, RunPlace now);
     /// Makes the next call of lines() return the whole log.
     void begin_again() { has_begun_ = false; }

@@ -1,4 +1,4 @@
-// If a request is refused, the messages about its text are printed before the error.
+// If a request is refused, the messages about the text of the request are printed before the error.
 #include "run/session/refusal.h"
 
 #include <fmt/format.h>
@@ -39,7 +39,7 @@ tl::unexpected<Refusal> refuse(Script script, std::optional<Failure> failure) {
     Refusal refused;
     refused.diagnostics = std::move(script.diagnostics);
     refused.sources = std::move(script.sources);
-    // The failure would only repeat the messages.
+    // If there are errors, the failure would only repeat them.
     if (!refused.diagnostics.has_errors()) refused.failure = std::move(failure);
     return tl::unexpected(std::move(refused));
 }

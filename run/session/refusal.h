@@ -16,9 +16,9 @@ struct Refusal {
     Sources sources;  ///< The sources of the diagnostics.
     std::optional<Failure> failure;
 
-    /// All messages as text, as the command line prints them.
+    /// Returns all messages as text, as the command line prints them.
     std::string messages(bool colour) const;
-    /// The failure if there is one, otherwise the first error as a failure without a position.
+    /// Returns the failure or, if there is none, the first error as a failure without a position.
     Failure in_brief() const;
 };
 
@@ -27,8 +27,8 @@ using Accepted = tl::expected<T, Refusal>;
 
 tl::unexpected<Refusal> refuse(Failure failure);
 tl::unexpected<Refusal> refuse(std::string message, std::string hint = "");
-/// Refuses a script with its errors, but without its warnings. Without errors, refuses it with
-/// `failure`.
+/// Refuses a script because of its errors, without its warnings. If the script has no errors,
+/// refuses it because of `failure`.
 tl::unexpected<Refusal> refuse(Script script, std::optional<Failure> failure = {});
 
 }  // namespace cascade

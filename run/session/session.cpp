@@ -1,5 +1,5 @@
-// The thread of a session. It executes queued commands, takes turns, and stores the newest
-// snapshot.
+// Implements the thread of a session. It executes queued commands, takes turns, and stores the
+// newest snapshot.
 #include "run/session/session.h"
 
 #include <condition_variable>
@@ -21,14 +21,15 @@ struct Session::Implementation {
         thread = std::thread([this] { work(); });
     }
 
-    Turns turns;  ///< Used by the session's thread, but any thread may cancel.
+    Turns turns;  ///< Only the session's thread uses the turns, but any thread may cancel them.
 
     // The members below are shared with other threads.
     std::mutex mutex;
     std::condition_variable has_task, has_snapshot;
     std::deque<Task> tasks;
     std::shared_ptr<const Snapshot> newest;
-    bool is_wanted = false;  ///< Whether the newest snapshot has been read.
+    /// Whether a reader has taken the newest snapshot and so may want another.
+    bool is_wanted = false;
     bool is_ending = false;
     std::function<void(const Progress&)> watcher;
     std::thread thread;
@@ -54,7 +55,7 @@ void Session::Implementation::work() {
         if (!tasks.empty()) {
             Task task = std::move(tasks.front());
             tasks.pop_front();
-            // The cancellation was meant only for earlier work.
+            // A cancellation is meant only for work that began before it.
             turns.control().cancel = false;
             lock.unlock();
             obey(std::move(task));
@@ -77,7 +78,7 @@ void Session::Implementation::obey(Task task) {
         return watcher;
     }();
     bool has_told = false;
-    // Reports are set up only now, because they would make steps slower.
+    // Reports are set up only for commands, because they would make steps slower.
     if (tell) {
         turns.control().report = [&](const Progress& progress) {
             if (progress.doing.empty()) return;

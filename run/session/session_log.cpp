@@ -1,4 +1,5 @@
-// Each change is one line. A script with several lines follows a line that gives their number.
+// Each change is one line. If a script has several lines, they follow a line that gives their
+// number.
 #include "run/session/session_log.h"
 
 #include "core/base64.h"
@@ -30,7 +31,7 @@ std::string counted_lines(const std::string& text) {
     return fmt::format("{}\n{}\n", breaks + 1, text);
 }
 
-/// The bytes of numbers, the least significant first, in base64.
+/// Encodes the bytes of numbers, the least significant byte first, in base64.
 template <typename Number>
 std::string in_base64(const std::vector<double>& values) {
     static_assert(std::endian::native == std::endian::little);
@@ -56,7 +57,7 @@ std::optional<std::vector<double>> out_of_base64(std::string_view text) {
 
 constexpr std::string_view binary32 = "f32 ", binary64 = "f64 ";
 
-/// Prints numbers in binary32 if this loses nothing.
+/// Writes numbers in binary32 if this loses nothing, and otherwise in binary64.
 std::string print_values(const std::vector<double>& values) {
     const bool is_single = std::all_of(values.begin(), values.end(), [](double value) {
         return static_cast<double>(static_cast<float>(value)) == value || value != value;
@@ -124,7 +125,7 @@ public:
         return number < 0 ? std::nullopt : std::optional(number);
     }
 
-    /// Reads a moment, "1 250": the number of the stage, from 1, and the number of steps.
+    /// Reads a moment, "1 250": the number of the stage, counted from 1, and the number of steps.
     static std::optional<RunPlace> place(std::string_view words) {
         const std::size_t blank = words.find(' ');
         if (blank == std::string_view::npos) return std::nullopt;
@@ -158,7 +159,7 @@ std::optional<std::pair<std::string, std::string>> assignment(std::string_view w
     return std::pair(std::string(words.substr(0, equals)), std::string(words.substr(equals + 1)));
 }
 
-/// Reads the change in a line. Empty if the line contains none.
+/// Reads the change in a line. Returns an empty optional if the line contains no change.
 std::optional<Change> read_change(std::string_view word, std::string_view rest, LogReader& reader) {
     if (word == "next" && rest.empty()) return NextStage{};
     if (word == "text") {

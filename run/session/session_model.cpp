@@ -1,4 +1,4 @@
-// The writers of `-o` write to a temporary folder, from which the files are read.
+// The writers of `-o` write to a temporary folder, from which this file reads what they wrote.
 #include "run/session/session_model.h"
 
 #include "core/enough_memory.h"
@@ -96,7 +96,7 @@ private:
     MeshTexture texture_;
 };
 
-/// The file of a model, or a ZIP file of all files of maps.
+/// Reads the file of a model, or packs all files of a model with maps into a ZIP file.
 Result<SavedModel> read_back(const WrittenFiles& written, ModelForm form) {
     std::vector<ZipEntry> entries;
     for (const fs::path& path : written.paths) {

@@ -1,4 +1,4 @@
-// The session is stored in a text chunk beside the chunks that hold the script.
+// The session is stored in a text chunk next to the chunks that contain the script.
 #include "run/session/session_picture.h"
 
 #include "core/enough_memory.h"

@@ -1,4 +1,5 @@
-// Pictures of a live run that contain its session, and reading the session from such a picture.
+// Writes pictures of a live run that contain its session, and reads the session from such a
+// picture.
 #pragma once
 
 #include "core/result.h"
@@ -12,21 +13,20 @@
 
 namespace cascade {
 
-/// Makes a painter for a run. Refused with the errors of `request`. Does not add to the
-/// warnings of the script.
+/// Makes a painter for a run. Refused with the errors of `request`. Adds no warnings to the script.
 Accepted<Painter> make_painter(LiveRun& run, const PictureRequest& request);
 
-/// The texts that embed_script() gives, and the session.
+/// Returns the texts of embed_script() and a text with the session.
 PngTexts embed_session(const Script& script, const PictureRequest& request, const SessionLog& log);
 
 /// Draws the present step as a PNG file in memory. The file contains the present script and the
-/// session, from which the same picture can be drawn again. If the run began with a saved run, its
-/// log does not reproduce it, so the file contains only the script. Refused with the errors of
+/// session, from which the same picture can be drawn again. If the run began with a saved run, the
+/// log cannot reproduce the run, so the file contains only the script. Refused with the errors of
 /// `request`, or if the picture cannot be written.
 Accepted<std::string> session_picture(LiveRun& run, const PictureRequest& request);
 
-/// Reads the session from a picture or a session file. Empty for other files. If the session is
-/// invalid, fails and names the file.
+/// Reads the session from a picture or a session file. Returns an empty optional for other files.
+/// If the session is invalid, fails with a message that names the file.
 Result<std::optional<SessionLog>> session_of(const LoadedFile& file);
 
 }  // namespace cascade

@@ -15,8 +15,8 @@
 namespace cascade {
 namespace {
 
-/// Requests a picture of the cells themselves. Even if the script's picture shows a volume as a
-/// body, this picture shows a slice.
+/// Makes a request for a picture of the cells themselves. If the script's picture shows a volume as
+/// a body, this picture shows a slice of the volume.
 PictureRequest cells_of(std::string expression) {
     PictureRequest request = picture_of(std::move(expression));
     request.flat = true;
@@ -25,15 +25,17 @@ PictureRequest cells_of(std::string expression) {
 
 using Seconds = std::chrono::duration<double>;
 
-/// The approximate time of a turn.
+/// The time, in seconds, that a turn takes approximately.
 constexpr double turn_seconds = 0.015;
-/// A turn takes at least this many steps, unless these would take longer than longest_turn_seconds.
-/// With fewer steps, taking several steps in one pass through memory would gain too little.
+/// A turn takes at least this many steps, unless these steps would take longer than
+/// longest_turn_seconds. With fewer steps in a turn, taking several steps in one pass through
+/// memory would gain too little.
 constexpr std::int64_t least_steps = 32;
 constexpr double longest_turn_seconds = 0.2;
-/// Limits turns in which steps take no measurable time.
+/// The largest number of steps of a turn. It limits turns in which steps take no measurable time.
 constexpr double most_steps_of_turn = 1e9;
-/// The shortest time between snapshots, and the largest fraction of the time that they may take.
+/// The shortest time in seconds between snapshots, and the largest fraction of the time that making
+/// snapshots may take.
 constexpr double snapshot_seconds = 1.0 / 60;
 constexpr double part_of_snapshots = 0.02;
 constexpr std::size_t most_remarks = 20;
@@ -57,7 +59,8 @@ Accepted<void> Turns::obey(const SessionCommand& command) {
     std::vector<StageRemark> before = std::exchange(remarks_, {});
     Accepted<void> result = carry_out(command);
     if (result && changes_pattern(command)) {
-        // The present stage and the stages after it will end again, perhaps in another way.
+        // The present stage and all later stages will end again, perhaps in another way, so the
+        // remarks on their ends are removed.
         std::erase_if(before, [stage = run_->place().stage](const StageRemark& remark) {
             return remark.stage >= stage;
         });
@@ -76,7 +79,7 @@ Accepted<void> Turns::carry_out(const SessionCommand& command) {
     }
     if (const auto* go = std::get_if<GoToStage>(&command)) return run_->go_to(go->stage, control_);
     if (std::holds_alternative<Undo>(command)) {
-        // Pauses, so that the user sees the undone state before it changes again.
+        // Pauses, so that the user sees the restored state before it changes again.
         is_going_on_ = false;
         return run_->undo(control_);
     }
@@ -142,9 +145,9 @@ void Turns::remark(std::uint32_t stage, const std::string& words) {
 
 bool Turns::is_snapshot_due() const {
     const double patience = std::max(snapshot_seconds, snapshot_cost_ / part_of_snapshots);
-    // A snapshot is made at the end of the turn that is nearest to the moment when it is due. Turns
-    // are a little shorter than `snapshot_seconds`, so otherwise only every second turn would end
-    // with one.
+    // A snapshot is made at the end of the turn that is nearest to the moment when the snapshot is
+    // due. Turns are a little shorter than `snapshot_seconds`, so without this allowance only every
+    // second turn would end with a snapshot.
     return !is_going_on_ || seconds_since(shown_at_) >= patience - turn_seconds / 2;
 }
 
@@ -159,8 +162,8 @@ Canvas Turns::canvas() {
     return painter_->canvas(run_->simulation());
 }
 
-/// Gives a new surface a new number. A surface that a change of the script leaves as it was keeps
-/// its number.
+/// Gives a new surface a new number. If a change of the script does not change the surface, its
+/// number stays the same.
 void Turns::look_at_surface(std::shared_ptr<const SurfaceMesh> body) {
     const bool is_same_body = (surface_ ? surface_->body : nullptr) == body;
     if (std::exchange(looked_at_, script_number_) == script_number_ && is_same_body) return;
@@ -206,7 +209,8 @@ std::shared_ptr<const Snapshot> Turns::snapshot() {
                                : nullptr);
     made->surface = surface_;
     if (seen.cells) {
-        // The surface of a function is only for fields. Cells crawl on the plane of its parameters.
+        // If a surface is given by a function, only fields are drawn on it. Cells crawl on the
+        // plane of its parameters.
         if (surface_ && surface_->function) made->surface = nullptr;
         made->cells =
             std::make_shared<const ShownCells>(shown_cells(*seen.cells, made->surface.get()));
@@ -214,7 +218,7 @@ std::shared_ptr<const Snapshot> Turns::snapshot() {
     made->surface_number = made->surface ? surface_number_ : 0;
     has_changed_ = false;
     shown_at_ = Clock::now();
-    // A single snapshot is also slow if its thread had to wait for a processor.
+    // A single snapshot may have been slow only because its thread had to wait for a processor.
     const double cost = seconds_since(begun);
     snapshot_cost_ = snapshot_cost_ > 0 ? std::min(cost, 2 * snapshot_cost_) : cost;
     return made;

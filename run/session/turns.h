@@ -1,5 +1,5 @@
 // Makes a live run execute commands, take a few steps at a time, and make snapshots. A Session
-// calls these functions in a separate thread. Without threads, as in a browser's worker, the caller
+// calls these functions in a separate thread. Without threads, as in a browser's worker, the owner
 // of the Turns calls them.
 #pragma once
 
@@ -43,26 +43,27 @@ using SessionCommand =
 struct StageProgress {
     std::string name;
     std::int64_t steps = 0;
-    std::int64_t iterations = 0;  ///< The largest number of steps of the stage.
+    std::int64_t iterations = 0;  ///< The stage ends after at most this number of steps.
     double t = 0;
-    double duration = 0;  ///< 0 if the number of iterations ends the stage.
+    double duration = 0;  ///< 0 if the stage ends after a number of iterations.
     bool has_begun = false;
     bool has_ended = false;
-    /// The numbers of cells, for a stage of crawling cells that has begun.
+    /// The numbers of cells if the stage has crawling cells and has begun. Otherwise empty.
     std::optional<CellCounts> cells = {};
 };
 
 /// The state of a session at one moment, for display. Its reader may store it.
 struct Snapshot {
-    std::uint64_t number = 0;  ///< The number of this snapshot, counted from 1.
-    std::uint64_t script = 0;  ///< Changes if and only if the script changes.
-    bool is_going_on = false;  ///< Whether steps are being taken.
+    std::uint64_t number = 0;  ///< The first snapshot has the number 1.
+    std::uint64_t script = 0;  ///< A number that changes if and only if the script changes.
+    bool is_going_on = false;  ///< Whether the run takes steps at present.
     RunPlace place;
     std::vector<StageProgress> stages;
-    double steps_per_second = 0;  ///< Measured recently. 0 while unknown.
+    double steps_per_second = 0;  ///< The speed that was measured last. 0 if it is unknown.
     bool can_undo = false, can_redo = false;
-    std::string failure;  ///< The reason why the run stopped by itself. Empty if it did not.
-    /// Remarks on ended stages, and warnings. The newest come last.
+    /// The reason why the run stopped without a command. Empty if it did not.
+    std::string failure;
+    /// Remarks on ended stages, and warnings. The newest ones come last.
     std::vector<std::string> remarks;
     /// The values to show, in binary32: one field for a number, or red, green and blue. For a
     /// volume they are a slice. Values outside the mask are NaN. Cells of a model are in the order
@@ -72,10 +73,10 @@ struct Snapshot {
     std::shared_ptr<const ShownCells> cells;       ///< Null if fields are shown.
     Grid grid;                                     ///< The grid of the domain.
     Slice slice;                                   ///< The slice of a volume that is shown.
-    PlaneScales scales{1, 1};                      ///< Canvas::scales.
+    PlaneScales scales{1, 1};                      ///< See Canvas::scales.
     std::shared_ptr<const ModelCells> model;       ///< Null on grids.
-    std::shared_ptr<const SurfaceSource> surface;  ///< Null if the domain is not a surface.
-    /// A different number for each surface. 0 if there is none.
+    std::shared_ptr<const SurfaceSource> surface;  ///< Null if the domain has no surface.
+    /// The number of the surface. Each surface has a different number. 0 if there is no surface.
     std::uint64_t surface_number = 0;
 };
 
@@ -90,10 +91,10 @@ public:
 
     Accepted<void> obey(const SessionCommand& command);
 
-    /// Whether steps are to be taken.
+    /// Whether take() would take steps.
     bool is_going_on() const { return is_going_on_; }
-    /// Takes steps for a few milliseconds. Commands need not wait longer than that, and shorter
-    /// turns would make steps slower.
+    /// Takes steps for a few milliseconds. Commands need not wait longer than that, and with
+    /// shorter turns steps would be slower.
     void take();
 
     /// Whether anything has changed since the last snapshot.
@@ -121,17 +122,19 @@ private:
     std::unique_ptr<LiveRun> run_;
     RunControl control_;
     bool is_going_on_ = false;
-    std::optional<std::int64_t> steps_left_;  ///< Set by TakeSteps.
+    /// The number of steps until the pause that TakeSteps has requested.
+    std::optional<std::int64_t> steps_left_;
     std::string failure_;
     std::vector<StageRemark> remarks_;
     double steps_per_second_ = 0;
     std::uint64_t script_number_ = 1;
-    std::string shown_;  ///< The requested expression.
+    std::string shown_;  ///< The requested expression. Empty: the script's own picture.
     Slice slice_;
     std::optional<Painter> painter_;
     std::shared_ptr<const SurfaceSource> surface_;
     std::uint64_t surface_number_ = 0;
-    std::uint64_t looked_at_ = 0;  ///< The number of the script for which this surface was found.
+    /// The number of the script for which the surface was last found.
+    std::uint64_t looked_at_ = 0;
     const Script* painted_script_ = nullptr;
     std::uint64_t snapshots_ = 0;
     Clock::time_point shown_at_;

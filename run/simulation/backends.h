@@ -13,9 +13,10 @@
 
 namespace cascade {
 
-/// The options for making a backend. A backend ignores options that it cannot use.
+/// The options for making a backend. A backend ignores the options that it cannot use.
 struct BackendOptions {
-    int lanes = 0;  ///< The number of cells in a vector. 0: as many as suit this machine.
+    /// The number of cells in a vector. 0: the largest number that suits this machine.
+    int lanes = 0;
     /// The folder in which compiled kernels are stored. If empty, kernels are not stored.
     std::filesystem::path cache = {};
 };
@@ -31,14 +32,15 @@ struct BackendKind {
     Result<std::unique_ptr<Backend>> (*make)(const BackendOptions& options);
 };
 
-/// All rows of the table, the fastest backend first. The last backend is available in every build.
+/// Returns all rows of the table, the fastest backend first. The last backend is available in every
+/// build.
 std::span<const BackendKind> backends();
-/// The row with this name, which must be in the table.
+/// Returns the row with this name, which must be in the table.
 const BackendKind& backend_named(std::string_view name);
 bool is_available(std::string_view name);
-/// The names of the available backends, in the order of the table.
+/// Returns the names of the available backends, in the order of the table.
 std::vector<std::string> available_backends();
-/// The first available backend of the table.
+/// Returns the first available backend of the table.
 const BackendKind& fastest_backend();
 
 }  // namespace cascade

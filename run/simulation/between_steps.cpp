@@ -1,4 +1,4 @@
-// Copies the species before a step in which a moment may be observed. Evaluates rates only for
+// Copies the species before each step in which a moment may be observed. Evaluates rates only for
 // steps in which a moment is observed.
 #include "run/simulation/between_steps.h"
 
@@ -17,9 +17,9 @@ namespace {
 /// The largest rounding error of a sum of step lengths, as a fraction of one step.
 constexpr double rounding_of_moments = 1e-6;
 
-/// The weights that give a value at the fraction `s` of a step: the weights of the values and
-/// slopes at both ends in Hermite's cubic, and of the quartic term, which changes neither values
-/// nor slopes at the ends. Slopes and the quartic term are multiplied by the length of the step.
+/// The weights of the five numbers that give a value at the fraction `s` of a step: the values and
+/// slopes at both ends, by Hermite's cubic, and the quartic term, which changes neither values nor
+/// slopes at the ends. Slopes and the quartic term are first multiplied by the length of the step.
 struct HermiteWeights {
     double before, after, slope_before, slope_after, quartic;
 
@@ -32,15 +32,15 @@ struct HermiteWeights {
 };
 
 /// Whether a cubic is smooth within a step. The value changes by `change` over the step. With the
-/// slope at one end, it would change by `at_start` or `at_end`. For a smooth curve, the differences
-/// of these two from `change` are of second order in the length of the step, and the sum of the
-/// differences is of third order.
+/// slope at the start of the step alone, it would change by `at_start`, and with the slope at the
+/// end alone by `at_end`. For a smooth curve, the differences of these two from `change` are of
+/// second order in the length of the step, and the sum of the differences is of third order.
 bool is_smooth(double change, double at_start, double at_end) {
     const double first = at_start - change, last = at_end - change;
     return std::abs(first + last) <= (std::abs(first) + std::abs(last)) / 2;
 }
 
-/// Replaces `after` by `value(before, after, row, cell)` in every cell where `before` and `after`
+/// Replaces `after` by `value(before, after, row, cell)` in each cell in which `before` and `after`
 /// differ.
 template <typename Number, typename Value>
 void read_between(const Plane<Number>& before, Plane<Number>& after, const Value& value) {
@@ -92,7 +92,8 @@ void BetweenSteps::pass(const NextMoment& next, const std::function<void()>& obs
     keep_before(moment);
 }
 
-/// A solver that chooses its steps may take a step of any length, so it may pass any finite moment.
+/// If a solver chooses its steps, a step may have any length, so the next step may pass any finite
+/// moment.
 void BetweenSteps::keep_before(double next_moment) {
     const bool may_follow = view_.stage().time.chooses_steps()
                                 ? std::isfinite(next_moment)

@@ -15,18 +15,19 @@
 
 namespace cascade {
 
-/// Between the two ends of a step, each value follows Hermite's cubic curve, which has the values
-/// and rates of both ends. The error of this curve is of fourth order in the length of the step. A
-/// solver may add a quartic term, with which the error is of fifth order (Scheme::curve). If rates
-/// contain random numbers, values follow straight lines instead. A value also follows a straight
-/// line if it changes so fast at an end of a long step that a cubic would swing far beyond both
-/// ends. A value that is the same at both ends is constant in between.
+/// Interpolates values within a step. Each value follows Hermite's cubic curve, which has the
+/// values and rates at both ends of the step. The error of this curve is of fourth order in the
+/// length of the step. A solver may add a quartic term, with which the error is of fifth order
+/// (Scheme::curve). If rates contain random numbers, values follow straight lines instead of
+/// curves. A value also follows a straight line if it changes so fast at an end of a long step that
+/// a cubic would swing far beyond both ends. A value that is the same at both ends is constant in
+/// between.
 class BetweenSteps {
 public:
     /// Moments are counted from the present state, which must be a complete step. `view` and
-    /// `state` must outlive this object. `has_long_steps`: whether a step may be longer than the
-    /// fastest change of a value takes. `curve` returns Stepper::curve() of the step that led to
-    /// the present state.
+    /// `state` must outlive this object. `has_long_steps` says whether a step may take longer than
+    /// the fastest change of a value. `curve` returns Stepper::curve() of the step that led to the
+    /// present state.
     BetweenSteps(const StageView& view, StageState& state, bool has_long_steps,
                  std::function<std::vector<Field>()> curve);
 
@@ -51,14 +52,15 @@ private:
     StageState& state_;
     bool has_long_steps_;
     std::function<std::vector<Field>()> curve_;
-    /// Whether the rates at the ends of steps can be used. Not if rates contain random numbers.
+    /// Whether the rates at the ends of steps can be used. False if rates contain random numbers.
     bool has_slopes_;
-    double last_;  ///< The moment observed last. At first the start of the stage.
+    double last_;  ///< The moment that was observed last. At first, the start of the stage.
     /// The state at the previous step. Empty if no moment was expected after it.
     std::optional<Moment> before_;
     /// The rates at both ends of the present step. Empty until a moment needs them.
     std::vector<Field> slopes_before_, slopes_after_;
-    std::vector<Field> quartic_;  ///< The quartic term of the present step. Empty if it has none.
+    /// The quartic term of the present step. Empty if the solver gives none.
+    std::vector<Field> quartic_;
 };
 
 }  // namespace cascade

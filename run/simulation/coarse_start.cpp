@@ -1,5 +1,5 @@
-// Each grid refines the result of the next coarser grid (core/resample). Steps on coarser grids are
-// neither saved nor observed.
+// The result on each grid is refined for the next finer grid (core/resample). Steps on coarser
+// grids are neither saved nor observed.
 #include "run/simulation/coarse_start.h"
 
 #include "core/resample.h"
@@ -19,9 +19,9 @@ namespace {
 
 constexpr std::int64_t most_steps = 1'000'000'000;
 
-/// Starts a stage on a grid whose cells are `times` times as wide. The stage takes times² as many
-/// steps (or as much time) as on the fine grid, because the time that a pattern needs grows with
-/// the square of its lengths.
+/// Prepares a stage for its start on a grid whose cells are `times` times as wide. The stage takes
+/// times² as many steps (or times² as much time) as on the fine grid, because the time that a
+/// pattern needs grows with the square of its lengths.
 StagesInOtherCells at_start_of(const Environment& fine, std::span<const StageState> states,
                                std::uint32_t stage, std::int64_t times) {
     Program program = coarser_program(fine.script, *fine.program, times);

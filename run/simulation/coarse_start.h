@@ -1,4 +1,4 @@
-// Runs stages on coarser grids before they start on their own grid.
+// Runs stages on coarser grids before the stages start on their own grid.
 #pragma once
 
 #include "core/result.h"
@@ -11,8 +11,8 @@
 
 namespace cascade {
 
-/// Runs a stage on each of its coarser grids, the coarsest first. The run on a grid starts from the
-/// result of the run on the grid before. The last result becomes the species of the stage.
+/// Runs a stage on each of its coarser grids, the coarsest first. On each further grid, the stage
+/// starts from the result on the grid before. The last result becomes the species of the stage.
 Result<StageEnd> run_on_coarser_grids(const Environment& environment, std::span<StageState> states,
                                       std::uint32_t stage, RunControl& control);
 

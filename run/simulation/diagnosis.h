@@ -1,5 +1,5 @@
-// Rows of a list of diagnoses. A row says when its diagnosis applies, what is measured, and how the
-// finding is described.
+// Lists of diagnoses. A row of a list says when its diagnosis applies, what is measured, and how
+// the finding is described.
 #pragma once
 
 #include <span>
@@ -11,11 +11,11 @@ namespace cascade {
 template <typename Subject>
 struct Diagnosis {
     bool (*applies)(const Subject& subject);
-    std::string (*find)(const Subject& subject);  ///< One sentence, or "".
+    std::string (*find)(const Subject& subject);  ///< Returns one sentence, or "".
 };
 
-/// A row of a list. `measure` returns a finding or nothing, and `words` describes the finding, or
-/// returns "" if it turns out to be harmless.
+/// Makes a row of a list. `measure` returns a finding or nothing. `words` describes the finding, or
+/// returns "" if the finding turns out to be harmless.
 template <typename Subject, bool (*applies)(const Subject&), auto measure, auto words>
 constexpr Diagnosis<Subject> diagnosis() {
     return {applies, [](const Subject& subject) {
@@ -24,7 +24,7 @@ constexpr Diagnosis<Subject> diagnosis() {
             }};
 }
 
-/// The description of the first diagnosis that is made. "" if there is none.
+/// Returns the description of the first diagnosis that finds something, or "" if none does.
 template <typename Subject>
 std::string first_of(std::span<const Diagnosis<Subject>> list, const Subject& subject) {
     for (const Diagnosis<Subject>& each : list) {

@@ -1,4 +1,4 @@
-// Returns the first remark of a list that applies. Each kind of stage has a list.
+// Each kind of stage has a list of remarks. The first remark of the list that applies is returned.
 #include "run/simulation/end_remarks.h"
 
 #include "core/counted_cells.h"
@@ -24,10 +24,10 @@ namespace cascade {
 
 namespace {
 
-/// A stage of which a remark may be made.
+/// A stage about which a remark may be made.
 struct Ended {
     StageView view;
-    bool is_last;  ///< No later stage takes a step.
+    bool is_last;  ///< Whether no later stage takes a step.
 
     const Stage& stage() const { return view.stage(); }
     const System& system() const { return view.system(); }
@@ -42,7 +42,7 @@ struct Ended {
 
 bool took_steps(const Ended& ended) { return ended.state().done && ended.state().steps > 0; }
 
-/// Whether the course of the stage, which records it, reaches to the stage's end.
+/// Whether the course of the stage has been recorded up to the stage's end.
 bool was_watched(const Ended& ended) {
     const StageState& state = ended.state();
     return state.done && !state.course.empty() && state.course.last().step == state.steps;
@@ -50,8 +50,8 @@ bool was_watched(const Ended& ended) {
 
 bool was_watched_in_steps(const Ended& ended) { return took_steps(ended) && was_watched(ended); }
 
-/// The trend of the last stage. Earlier stages have none, because they are often ended early on
-/// purpose.
+/// Returns the trend of the last stage. For earlier stages, returns no trend, because users often
+/// end them early on purpose.
 Trend trend_of(const Ended& ended) {
     const bool is_meant = !ended.is_last || ended.state().condition_met;
     return is_meant ? Trend::none : ended.course().trend();
@@ -64,7 +64,8 @@ bool is_uniform_in_space(const Stage& stage, const System& system) {
     });
 }
 
-/// The fraction of the cells `inside`, or of all cells if it is null, in which `mask` is not 0.
+/// Returns the fraction of the cells in which `mask` is not 0. Only the cells `inside` count. If
+/// that is null, all cells count.
 double part_of_ones(const Mask& mask, const Mask* inside) {
     double ones = 0, cells = 0;
     for_each_counted(mask.layout(), inside, [&](std::int64_t row, std::int64_t i) {
@@ -91,13 +92,13 @@ std::string describe_frozen_nowhere(const Ended& ended) {
     return ended.about("has no frozen cell: its 'frozen' is true nowhere");
 }
 
-/// At most this number of species are named.
+/// The largest number of species that a remark names.
 constexpr std::size_t most_named = 4;
-/// A stage had a pattern, rather than noise that could grow into one, if its cells once differed by
-/// at least this fraction of a species' largest magnitude.
+/// If the cells of a stage once differed by at least this fraction of a species' largest magnitude,
+/// the stage had a pattern, and not only noise that could grow into a pattern.
 constexpr double contrast_of_a_pattern = 0.05;
 
-/// The values of a uniform state as text: "u = 1, v = 0".
+/// Lists the values of a uniform state: "u = 1, v = 0".
 std::string values_of(const System& system, const Moment& moment) {
     std::string text;
     for (std::size_t k = 0; k < moment.species.size() && k < most_named; ++k) {
@@ -154,10 +155,12 @@ std::string describe_until(const Ended& ended) {
                        with_commas(state.steps), *time.steady);
 }
 
-/// Describes accumulated errors of steps of first order. Empty if these are small.
+/// Describes the accumulated errors of steps of first order. Returns an empty string if the errors
+/// are small or the steps are not of first order.
 std::string errors_in_words(const Stage& stage, const StageCourse& course) {
     const Solver solver = stage.time.solver;
-    // Species whose values hardly differ may be in error by five times as much as the others.
+    // Errors are measured relative to the differences between cells. If values hardly differ
+    // between cells, these errors may be five times as large.
     const double least_errors = is_semi_implicit(solver) ? 0.01 : 0.004;
     if (!stage.time.chooses_steps() || order_of(solver) > 1 || course.errors() < least_errors) {
         return {};
@@ -173,7 +176,7 @@ std::string describe_errors(const Ended& ended) {
     return words.empty() ? "" : ended.about("{}", words);
 }
 
-/// Describes the species whose deviation rises fastest.
+/// Describes the growth of the species whose deviation rises fastest.
 std::string describe_growth(const Ended& ended) {
     if (trend_of(ended) != Trend::growing) return {};
     const StageCourse& course = ended.course();
@@ -192,8 +195,8 @@ std::string describe_growth(const Ended& ended) {
         course.last().species[fastest].deviation(), errors.empty() ? "" : "; it " + errors);
 }
 
-/// Describes a stage in which the cells differ, in every species, by no more than the tolerance of
-/// a step.
+/// Describes a stage in which the cells of every species differ by less than the tolerance of a
+/// step.
 std::string describe_tolerance(const Ended& ended) {
     const StageTime& time = ended.stage().time;
     const auto is_within = [&](const Spread& spread) {
@@ -223,7 +226,7 @@ std::string describe_fading(const Ended& ended) {
         rest);
 }
 
-/// Describes a stage that ends with its starting values because its rates are 0 everywhere.
+/// Describes a stage that has kept its starting values because its rates are 0 everywhere.
 std::string describe_standstill(const Ended& ended) {
     const StageCourse& course = ended.course();
     const auto is_same = [](const Spread& a, const Spread& b) {
@@ -245,8 +248,9 @@ std::string describe_standstill(const Ended& ended) {
 
 bool is_of_neighbours(const Node& node) { return node.is<Call>() && differentiates(node.function); }
 
-/// Whether the grid alone could have made the fronts of this stage stand still. False if its result
-/// depends on positions, random numbers, earlier stages, frozen cells or a model.
+/// Whether only the grid could have made the fronts of this stage stand still. False if the result
+/// of the stage depends on positions, random numbers, earlier stages, frozen cells, a mask or a
+/// model, or if `speed` or a parameter varies by cell.
 bool may_be_pinned(const Ended& ended) {
     const StageView& view = ended.view;
     const StageState& state = view.state();
@@ -265,7 +269,7 @@ bool may_be_pinned(const Ended& ended) {
 /// A front stands still if it would move by fewer cells than this during the whole stage.
 constexpr double least_way = 0.5;
 
-/// A remark if almost all fronts of a species are thinner than a cell and do not move.
+/// Makes a remark if almost all fronts of a species are thinner than a cell and do not move.
 std::string describe_pinned_fronts(const Ended& ended) {
     const StageView& view = ended.view;
     const StageState& state = view.state();
@@ -297,7 +301,7 @@ constexpr Diagnosis<Ended> remarks_on_fields[] = {
     {may_be_pinned, describe_pinned_fronts},
 };
 
-// Stages of cells that crawl.
+// The following functions describe stages of cells that crawl.
 
 bool is_frozen(const Ended& ended) {
     const Tissue& tissue = *ended.state().tissue();
@@ -338,7 +342,8 @@ std::string remark_on(const Simulation& simulation, std::uint32_t k) {
 }
 
 bool made_its_pattern(const Simulation& simulation, std::uint32_t k) {
-    // A species owes its pattern to the stage if its deviation has grown by this factor.
+    // The stage has made the pattern of a species if the species' deviation has grown by this
+    // factor.
     constexpr double times_at_start = 3;
     const Stage& stage = simulation.domain().stage(k);
     const System& system = simulation.domain().program->system_of(k);

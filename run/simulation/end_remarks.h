@@ -8,13 +8,14 @@
 
 namespace cascade {
 
-/// A remark of one sentence on the result of a stage. Empty if the result needs no remark or if the
-/// stage has not ended.
+/// Returns a remark of one sentence on the result of a stage. Returns an empty string if the result
+/// needs no remark or if the stage has not ended.
 std::string remark_on(const Simulation& simulation, std::uint32_t stage);
 
-/// Whether the stage itself has made the pattern that it shows. This is so if neighbouring cells
-/// affect each other's rates, if neither random numbers nor varying parameters affect rates, and
-/// if, for every species that is not uniform, cells differ far more than at the start of the stage.
+/// Whether the stage itself has made the pattern that it shows. This is so if three conditions
+/// hold. Neighbouring cells affect each other's rates. Neither random numbers nor varying
+/// parameters affect rates. The cells of every species are uniform or differ far more than at the
+/// start of the stage.
 bool made_its_pattern(const Simulation& simulation, std::uint32_t stage);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Makes everything that stages share, once, before any of them starts.
+// Makes everything that stages share. This is done only once, before any stage starts.
 #include "run/simulation/environment.h"
 
 #include "lang/program/stage_kinds.h"
@@ -19,7 +19,8 @@
 namespace cascade {
 namespace {
 
-/// All calls of disc, ring and box with constant arguments, each once, as separate formulas.
+/// Returns all calls of disc, ring and box with constant arguments as separate formulas. Each call
+/// occurs once.
 std::vector<Formula> written_areas(const Program& program) {
     std::vector<Formula> areas;
     for (const Formula* formula : formulas_of(program)) {
@@ -49,14 +50,16 @@ std::vector<Formula> written_areas(const Program& program) {
     return areas;
 }
 
-/// Makes the cells of the script's model, or takes the cells of another simulation on that model.
+/// Makes the cells of the script's model, or takes them from another simulation with the same
+/// model.
 Result<std::shared_ptr<const ModelCells>> make_cells(Script& script,
                                                      const SimulationOptions& options, int threads,
                                                      RunControl& control) {
     const TimeAccount::Scope spent(options.account, Spent::cells);
     if (options.known_model) return options.known_model;
     Team makers(threads);
-    // Set if `check_model` refused the model. Its message is then the only one.
+    // Whether `check_model` or a missing attribute refused the model. No further message is then
+    // needed.
     bool is_refused = false;
     const auto check = [&](const SurfaceMesh& mesh) {
         Result<void> good = options.check_model ? options.check_model(mesh) : Result<void>();
@@ -95,8 +98,8 @@ Result<std::shared_ptr<const ModelCells>> make_cells(Script& script,
     return std::move(*made);
 }
 
-/// Makes a model the domain, and computes the values that formulas of the program read at positions
-/// on it.
+/// Makes a model the domain. Computes the values that formulas of the program read at positions on
+/// the model.
 Result<void> take_model(Environment& here, std::shared_ptr<const ModelCells> cells,
                         const RunControl& control) {
     const TimeAccount::Scope spent(here.account, Spent::cells);
@@ -106,7 +109,7 @@ Result<void> take_model(Environment& here, std::shared_ptr<const ModelCells> cel
     if (control.cancel) return failure("stopped while distances on the model were found");
     if (here.program->stages.empty() || !control.warn) return {};
     const std::vector<StageState> states(1);
-    // A shape written for one model may miss another model entirely.
+    // A shape whose numbers were chosen for one model may contain no cell of another model.
     for (const Formula& area : written_areas(*here.program)) {
         const StageView view(here, states, 0);
         if (largest_value(view.evaluate(area)[0], nullptr) > 0) continue;
@@ -116,7 +119,7 @@ Result<void> take_model(Environment& here, std::shared_ptr<const ModelCells> cel
     return {};
 }
 
-/// Computes the mask, once, before the first stage.
+/// Computes the mask before the first stage. The mask does not change afterwards.
 Result<void> find_mask(Environment& here, Script& script, const RunControl& control) {
     const auto& mask = here.program->domain.mask;
     if (!mask || here.program->stages.empty()) return {};
@@ -139,8 +142,8 @@ Result<void> find_mask(Environment& here, Script& script, const RunControl& cont
     return failure("the domain has no cells");
 }
 
-/// Makes everything that is needed to evaluate formulas of the program: the values of a model
-/// (`cells` may be null), the ground of crawling cells, sizes, and the mask.
+/// Makes everything that is needed to evaluate formulas of the program: the values of a model, the
+/// ground of crawling cells, sizes, and the mask. `cells` may be null.
 Result<void> make_whole(Environment& here, Script& script, const SimulationOptions& options,
                         std::shared_ptr<const ModelCells> cells, RunControl& control) {
     if (cells) {
@@ -185,7 +188,7 @@ bool Environment::takes_long(std::uint32_t k) const {
 
 std::string Environment::place_in_words(std::int64_t column, std::int64_t row) const {
     if (!model) return fmt::format("column {}, row {}", column, row);
-    // The padding of the grid repeats the last cell.
+    // In the padding of the grid, the last cell is repeated.
     const ModelCells& cells = *model->cells;
     const auto last = static_cast<std::int64_t>(cells.count()) - 1;
     return fmt::format("cell {}", cells.cell_at(std::min(row * grid.width + column, last)));
@@ -211,7 +214,7 @@ Result<std::unique_ptr<Environment>> make_environment(Script& script,
         memory = memory_of(program, plans, facts);
         return check_memory(grid, memory, options.memory_limit);
     };
-    // The number of faces or vertices of a model is known only after reading it.
+    // The number of faces or vertices of a model is known only after the model has been read.
     const auto& model = program.domain.model;
     if (!model || model->cells == ModelCellKind::spread) {
         if (auto fits = fits_memory(nullptr); !fits) return tl::unexpected(fits.error());
@@ -222,7 +225,7 @@ Result<std::unique_ptr<Environment>> make_environment(Script& script,
         if (!made) return tl::unexpected(made.error());
         cells = std::move(*made);
         grid = cells->grid();
-        // Crawling cells do not need the cells of the model, which are then made only on demand.
+        // Crawling cells do not need the cells of the model, so these are then made only on demand.
         auto fits = fits_memory(has_stage_of_fields(program) ? &cells->spread() : nullptr);
         if (!fits) return tl::unexpected(fits.error());
     }

@@ -26,15 +26,15 @@
 
 namespace cascade {
 
-/// Additional tools for stages of crawling cells.
+/// The additional tools for stages of crawling cells.
 struct CrawlingTools {
     KernelMaker kernels;
-    /// The surroundings of cells unless a stage grows a body for them.
+    /// The surroundings of the crawling cells. A stage may replace them by a body that it grows.
     std::shared_ptr<const TissueGround> ground;
 };
 
 class Environment : public SimulationDomain {
-    TimeAccount unread_;  ///< Receives times if the caller gives no account.
+    TimeAccount unread_;  ///< Receives the times if the caller gives no account.
 
 public:
     /// `its_plans` are the plans of the program. If `kernel_cache` is not empty, the fastest
@@ -45,7 +45,8 @@ public:
                 const std::filesystem::path& kernel_cache = {});
 
     const Script& script;
-    std::string progress_note;  ///< Appended to the stage's name in reports of progress.
+    /// Text that is appended to the stage's name in reports of progress.
+    std::string progress_note;
     InputFiles files;
     std::vector<Field> metric;  ///< Indexed by MetricPlane. Empty if the domain has no surface.
     StepTools tools;
@@ -62,21 +63,22 @@ public:
     void use(Program other);
     /// Whether this is the program of the script itself, with the same cells and unscaled lengths.
     bool runs_as_written() const { return program == script.program; }
-    /// The facts about a model. Null on grids. If the model's cells do not exist yet, makes them.
+    /// Returns the facts about the model, or null on grids. Makes the model's cells if they do not
+    /// exist yet.
     const ModelFacts* model_facts() const { return model ? &model->cells->spread() : nullptr; }
-    /// The cells that belong to the domain or model. Null if all cells of the grid do.
+    /// Returns a mask of the cells that belong to the domain or model. Returns null if all cells of
+    /// the grid do.
     const Mask* counted() const {
         return mask ? &mask->inside : model ? &model->cells->spread().inside : nullptr;
     }
-    /// Whether the steps of a stage certainly take longer than compiling their kernels.
+    /// Whether the steps of a stage will certainly take longer than compiling their kernels.
     bool takes_long(std::uint32_t k) const;
-    /// Describes a cell in words, for messages, by its column and row, or by its number on a model.
+    /// Describes a cell for messages: by its column and row or, on a model, by its number.
     std::string place_in_words(std::int64_t column, std::int64_t row) const;
 };
 
-/// Checks memory, reads files, makes the cells of a model and computes the mask. Errors in files
-/// are added to `script.diagnostics`, and the result is then a failure. `script` must outlive the
-/// environment.
+/// Checks memory, reads files, makes the cells of a model and computes the mask. If a file has
+/// errors, adds them to `script.diagnostics` and fails. `script` must outlive the environment.
 Result<std::unique_ptr<Environment>> make_environment(Script& script,
                                                       const SimulationOptions& options);
 

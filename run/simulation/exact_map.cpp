@@ -1,4 +1,4 @@
-// Looks at the rates, and at the values of all cells.
+// Examines the rates, and then the values of all cells.
 #include "run/simulation/exact_map.h"
 
 #include "lang/program/nodes_of_rates.h"
@@ -11,8 +11,9 @@ namespace cascade {
 
 namespace {
 
-/// The largest value that a cellular automaton is assumed to reach. Steps that are too long make
-/// values beyond 2^24, which are whole numbers, too, in single precision.
+/// The largest value that a cellular automaton is assumed to reach. Larger values are not accepted
+/// as whole numbers, because steps that are too long make values beyond 2^24, and in single
+/// precision all of these are whole numbers.
 constexpr double largest_state = 1 << 16;
 
 bool holds_whole_numbers(const Field& field, const Mask* inside) {

@@ -1,5 +1,5 @@
-// The program of the finer run differs from the script's program only in the end and the step of
-// one stage.
+// The program for the smaller cells differs from the script's program only in the end and the step
+// of one stage.
 #include "run/simulation/finer_run.h"
 
 #include "run/simulation/other_cells.h"
@@ -15,16 +15,15 @@ namespace {
 
 constexpr std::int64_t most_settling_steps = 1'000'000'000;
 
-/// Whether the solver would become unstable in finer cells unless `speed` is reduced. Euler's steps
-/// are divided automatically if they are too long (StageTimer::substeps), provided `speed` is
-/// uniform.
+/// Whether the solver would become unstable in finer cells unless `speed` is reduced. If `speed` is
+/// uniform, Euler's steps are divided automatically when they are too long (StageTimer::substeps).
 bool needs_shorter_steps(const Stage& stage, bool has_uniform_speed) {
     const Solver solver = stage.time.solver;
     if (stage.time.chooses_steps() || takes_long_steps(solver)) return false;
     return solver != Solver::euler || !has_uniform_speed;
 }
 
-/// A program in which the stage continues for a fraction of the time that it has taken.
+/// Returns a program in which the stage continues for a fraction of the time that it has taken.
 Program settling_program(const Program& program, std::uint32_t k, const StageState& end) {
     Program result = program;
     Stage& stage = result.stages[k];
@@ -41,7 +40,7 @@ Program settling_program(const Program& program, std::uint32_t k, const StageSta
         formula.nodes.push_back(Node{static_cast<double>(detail * detail), whole.span});
         formula.nodes.push_back(product);
     }
-    stage.time.until.reset();  // `until` may be true already, and would end the stage at once.
+    stage.time.until.reset();  // `until` may be true already, and would then end the stage at once.
     stage.time.open_end = false;
     stage.time.every = 0;
     stage.time.duration.reset();
@@ -57,7 +56,8 @@ Program settling_program(const Program& program, std::uint32_t k, const StageSta
     return result;
 }
 
-/// Finds items that contain a random number drawn in each cell, directly or through other items.
+/// Finds the items that contain a random number drawn in each cell, directly or through other
+/// items.
 class DrawnItems {
 public:
     DrawnItems(const Program& program, std::uint32_t stage) : system_(program.system_of(stage)) {
@@ -82,7 +82,7 @@ private:
     IdVector<ItemId, bool> drawn_;
 };
 
-/// Gives a stage that was started in finer cells the state that was carried to them.
+/// Gives a stage that was started in finer cells the state that was transferred to these cells.
 void take_moment(const Program& program, std::uint32_t k, StageState carried, StageState& state) {
     const System& system = program.system_of(k);
     const DrawnItems drawn(program, k);
@@ -96,7 +96,8 @@ void take_moment(const Program& program, std::uint32_t k, StageState carried, St
     for (const ItemId item : system.species()) {
         const std::size_t s = state.species_of_item[item]->index();
         Field& values = from.species[s];
-        // Frozen cells keep their starting values, which were computed anew with sharp outlines.
+        // Frozen cells keep their starting values, which were computed again in the finer cells,
+        // with sharp outlines.
         if (!drawn.contains(item)) keep_frozen(values, into.frozen, into.species[s]);
         into.species[s] = std::move(values);
     }

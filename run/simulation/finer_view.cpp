@@ -1,4 +1,4 @@
-// Divides all planes. Uniform values need no change.
+// Divides all planes into smaller cells. Uniform values need no change.
 #include "run/simulation/finer_view.h"
 
 #include "core/resample.h"

@@ -22,9 +22,9 @@ public:
     /// of `view` must outlive this object. Throws std::bad_alloc.
     FinerView(const StageView& view, std::int64_t times);
 
-    /// Evaluates a formula for pictures like Simulation::evaluate(). If the formula contains a sum
-    /// over the domain, it is evaluated in the cells of the run, because the sum depends on the
-    /// number of cells.
+    /// Evaluates a formula for pictures as Simulation::evaluate() does, but in the smaller cells.
+    /// If the formula contains a sum over the domain, it is evaluated in the cells of the run,
+    /// because the sum depends on the number of cells.
     std::vector<Field> evaluate(const Formula& formula, std::uint32_t stage) const;
 
 private:
@@ -34,8 +34,8 @@ private:
     StagesInOtherCells finer_;
 };
 
-/// Shows each cell of a plane as times × times cells. Null if the domain has a mask, a surface or
-/// slices, or if a stage has crawling cells. Throws std::bad_alloc.
+/// Makes a view that shows each cell of a plane as times × times cells. Returns null if the domain
+/// has a mask, a surface or slices, or if a stage has crawling cells. Throws std::bad_alloc.
 std::unique_ptr<const FinerView> finer_view(const Simulation& simulation, std::int64_t times);
 
 }  // namespace cascade

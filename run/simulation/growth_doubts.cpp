@@ -1,5 +1,6 @@
-// Repeats the dilution of a stage for one number, u' = -r(t) u. The exact factor of u is the size
-// of the domain at the start divided by the size at the end.
+// Takes the steps of a stage again for one number, u' = -r(t) u, which dilution alone changes. The
+// exact factor by which u changes is the size of the domain at the start divided by the size at the
+// end.
 #include "run/simulation/growth_doubts.h"
 
 #include "ir/solver.h"
@@ -19,8 +20,8 @@ namespace cascade {
 
 namespace {
 
-constexpr double noticed_part = 0.01;  ///< Smaller changes are not reported.
-constexpr double kept_part = 0.003;    ///< Suggested steps change amounts by less than this.
+constexpr double noticed_part = 0.01;  ///< The smallest relative change that is reported.
+constexpr double kept_part = 0.003;  ///< Suggested steps change amounts by less than this fraction.
 constexpr std::int64_t most_repeated = 200'000;
 
 double at(const Formula& formula, double t) {
@@ -35,7 +36,7 @@ bool varies(const Program& program, const StageItem& item) {
     return item.item < stage.uniform.next() && !stage.uniform[item.item];
 }
 
-/// The earlier stages whose cells a stage reads when it starts.
+/// Returns the earlier stages whose cells a stage reads when it starts.
 std::set<std::uint32_t> stages_read(const StageView& view) {
     std::set<std::uint32_t> read;
     for (const Formula& item : view.stage().items) {
@@ -57,8 +58,8 @@ std::vector<double> lengths_at(const Program& program, const Stage& stage, doubl
     return lengths;
 }
 
-/// The factor by which u' = -r(t) u changes u from t = 0 to `end`, in steps of this length. The
-/// last step may be shorter.
+/// Returns the factor by which u' = -r(t) u changes u from t = 0 to `end`, in steps of the length
+/// `length`. The last step may be shorter.
 double diluted(const Formula& rate, int order, double length, double end) {
     double u = 1;
     const auto slope = [&](double t, double value) { return -at(rate, t) * value; };

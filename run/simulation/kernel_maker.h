@@ -1,5 +1,5 @@
-// Makes the kernels of a simulation runnable. Each is compiled, interpreted, or interpreted until
-// its compiled code is ready.
+// Makes the kernels of a simulation runnable. Each kernel is compiled, interpreted, or interpreted
+// until its compiled code is ready.
 #pragma once
 
 #include "core/grid.h"
@@ -20,7 +20,8 @@ namespace cascade {
 /// The tools that compute steps. No result depends on their choice.
 struct StepTools {
     std::shared_ptr<TieredBackend> stepper;
-    bool starts_interpreted = false;  ///< Whether steps are interpreted until their code is ready.
+    /// Whether steps are interpreted until their compiled code is ready.
+    bool starts_interpreted = false;
     int threads = 1;
     /// The tiling of planes. If empty, it is chosen by the size of the grid and by measurement.
     std::optional<Tiling> tiling = {};
@@ -41,25 +42,27 @@ public:
 
     Compile interpreted() const { return interpreted_on(grid_); }
     Compile interpreted_on(const Grid& grid) const;
-    /// For kernels that run every few steps. They are compiled as soon as interpreting them has
-    /// taken as long as compiling would.
+    /// Makes kernels that run every few steps. Such kernels are compiled as soon as interpreting
+    /// them has taken as long as compiling would take.
     Compile often() const;
-    /// For kernels that run once. They are interpreted unless that would take longer than
-    /// compiling.
+    /// Makes kernels that run only once. Such kernels are interpreted unless that would take longer
+    /// than compiling.
     Compile once() const;
-    /// For kernels of steps. They are compiled before the first step, or while the first steps are
-    /// interpreted. Adds them to `kernels`, and calls `refused` for each that cannot be compiled.
+    /// Makes kernels of steps. They are compiled before the first step, or while the first steps
+    /// are interpreted. Adds them to `kernels`, and calls `refused` for each kernel that cannot be
+    /// compiled.
     Compile steps(TieredBackend::When when, StepKernels& kernels,
                   std::function<void(const Failure&)> refused) const;
-    /// Announces kernels that will be needed later.
+    /// Tells the stepper about a kernel that will be needed later.
     void expect(const CellKernel& kernel) const { stepper_->expect(kernel, grid_.stencil()); }
 
-    /// Whether the grid is so small that evaluating takes less time than waking a second thread.
+    /// Whether the grid is so small that evaluating a formula takes less time than waking a second
+    /// thread.
     bool is_small() const { return grid_.cell_count() < 65536; }
 
 private:
-    /// Whether steps are interpreted until their code is ready. On large grids they are not,
-    /// because a single interpreted step takes longer than compiling.
+    /// Whether steps are interpreted until their compiled code is ready. This is not done on large
+    /// grids, because a single interpreted step takes longer than compiling.
     bool runs_meanwhile() const {
         return starts_interpreted_ && grid_.cell_count() < cells_worth_compiling;
     }

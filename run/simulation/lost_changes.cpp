@@ -1,5 +1,5 @@
-// Compares the rates with the spacing of numbers around the values, over the time in which the
-// rates decay.
+// Compares the rates, over the time in which they decay, with the spacing of floating-point numbers
+// around the values.
 #include "run/simulation/lost_changes.h"
 
 #include "core/counted_cells.h"
@@ -18,21 +18,25 @@
 namespace cascade {
 namespace {
 
-/// A warning is given if at least this fraction of the values is lost.
+/// A warning is given if the lost changes are at least this fraction of the values.
 constexpr double lost_change_threshold = 0.01;
-/// Rounding may move a pattern at rest by this part of its values.
+/// Rounding may move a pattern at rest by this fraction of its values, so smaller changes are not
+/// noticed.
 constexpr double least_noticed = 5e-6;
-/// A change is noticed if it is at least this part of the differences between cells.
+/// A change is noticed if it is at least this fraction of the differences between cells.
 constexpr double part_of_differences = 0.1;
-/// If less than this part of the differences at the start of a stage is left, the pattern is
-/// fading.
+/// A pattern is fading if less than this fraction of the differences at the start of a stage is
+/// left.
 constexpr double least_contrast_left = 0.1;
 
-/// Changes that are so small that adding them to a species has no effect.
+/// The changes of a species that are so small that adding them has no effect.
 struct LostChange {
-    /// The fraction of the cells with a rate other than 0 that a step does not change.
+    /// The number of cells that a step does not change, although their rate is not 0, divided by
+    /// the number of all cells with a rate that is not 0.
     double part = 0;
-    double rate = 0;  ///< The sum of |rate| over these cells, divided by the number of all cells.
+    /// The sum of |rate| over the cells that a step does not change, divided by the number of all
+    /// cells.
+    double rate = 0;
 };
 
 LostChange lost_change(const Field& species, const Field& rates, double step, const Mask* counted,
@@ -61,12 +65,13 @@ Field sum(const Field& a, const Field& b, double factor) {
     return result;
 }
 
-/// The speed at which rates decay when the state moves along them, in 1 / time. Negative if rates
-/// grow.
+/// Returns how fast rates decay when the state moves in the direction of the rates, in 1 / time.
+/// The result is negative if rates grow.
 double decay_along(const EndedStage& ended, const std::vector<Field>& rates) {
     const std::vector<Field>& species = ended.state.species();
     const Mask* counted = ended.view.environment().counted();
-    // A step along the rates that is long enough for differences to be well above rounding errors.
+    // The length of a step in the direction of the rates, which must be so long that differences
+    // are well above rounding errors.
     double step = std::numeric_limits<double>::infinity();
     for (std::size_t s = 0; s < species.size(); ++s) {
         const double largest = largest_magnitude(std::span(&rates[s], 1));
@@ -94,9 +99,9 @@ double decay_along(const EndedStage& ended, const std::vector<Field>& rates) {
     return squares > 0 ? -products / squares / step : 0;
 }
 
-/// The least change of a species that is noticed. Usually it is a tenth of the differences between
-/// cells. If values are uniform or a fading pattern is almost gone, it is a hundredth of the
-/// values.
+/// Returns the smallest change of a species that is noticed. Usually it is a tenth of the
+/// differences between cells. If values are uniform, or if a fading pattern is almost gone, it is a
+/// hundredth of the values.
 double noticed_change(const StageState& state, std::size_t species, const FieldMoments& values) {
     const double value = values.root_mean_square;
     const StageCourse& course = state.course;
@@ -111,7 +116,7 @@ double noticed_change(const StageState& state, std::size_t species, const FieldM
 
 bool could_lose_changes(const StageView& view) {
     const StageState& state = view.state();
-    // Rounding a step loses at most half of the last digit.
+    // Rounding a step loses at most half of the last binary digit.
     const double most_lost = static_cast<double>(state.steps) * 0x1p-24;
     const auto may_be_noticed = [&](const Field& species) {
         const auto s = static_cast<std::size_t>(&species - state.species().data());

@@ -1,5 +1,5 @@
-// Compares the parts that rates and rules at sides lose with the whole rate or rule, and with the
-// values of the species.
+// Some parts of rates, and of rules at sides, are lost by rounding. They are compared with the
+// whole rate or rule, and with the values of the species.
 #include "run/simulation/lost_parts.h"
 
 #include "core/counted_cells.h"
@@ -21,9 +21,9 @@ namespace {
 /// A warning is given if the lost part is at least the fraction `least_of_whole` of its formula,
 /// and changes values by at least the fraction `least_of_values` during the stage.
 constexpr double least_of_whole = 1e-3, least_of_values = 0.01;
-/// Smaller values are not examined, because they are about to underflow to 0 in any case.
+/// Values below this are not examined, because they will soon underflow to 0 in any case.
 constexpr double least_value = 1e-34;
-/// The time assumed for a stage without a known end.
+/// The time that is assumed for a stage without a known end.
 constexpr double time_without_end = 10000;
 
 Magnitude magnitude_in(const Field& field, const Mask* counted) {
@@ -81,7 +81,8 @@ bool spoils_its_rate(const StageView& view, const LostPart& found) {
     return false;
 }
 
-/// The change of values near a side because of the lost part of its rule.
+/// Returns the change of values near a side that is missing because part of the side's rule is
+/// lost.
 double change_at_side(const StageView& view, const LostPart& found) {
     const Grid& grid = view.environment().grid;
     switch (found.kind) {
@@ -106,8 +107,8 @@ bool changes_the_result(const StageView& view, const LostPart& found) {
            (found.cause == LostPart::Cause::too_small && spoils_its_rate(view, found));
 }
 
-/// Describes a lost part, such as "a * b in the rate of u is at most 3e-40 at the start, too small
-/// for single precision, …".
+/// Describes a lost part: "a * b in the rate of u is at most 3e-40 at the start, too small for
+/// single precision, …".
 std::string words_for(const StageView& view, const LostPart& found) {
     const Sources& sources = view.environment().script.sources;
     const std::string name(view.system().item_name(found.species));

@@ -1,4 +1,4 @@
-// Makes a new environment for each grid. Values are carried by run/domain/cell_carrier.h.
+// Makes a new environment for each grid. run/domain/cell_carrier.h transfers the values.
 #include "run/simulation/other_cells.h"
 
 #include "core/counted_cells.h"
@@ -95,8 +95,8 @@ Field in_cells_of(const Simulation& simulation, std::uint32_t stage, ItemId item
     const auto carrier = carrier_to_wider(domain, own);
     if (item == simulation.domain().program->system_of(stage).frozen_item())
         return to_field(carrier->carried(to_mask(values)), values.precision());
-    // Where the new values equal the shown ones, the difference is 0 and cells keep their values
-    // exactly.
+    // Where new values equal the values that pictures show, the difference is 0, so these cells
+    // keep their own values exactly.
     Field result(simulation.state(stage).field(item));
     const Field& shown = simulation.field(stage, item);
     values.visit([&]<typename Number>(Plane<Number>& plane) {

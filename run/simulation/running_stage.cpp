@@ -1,5 +1,4 @@
-// Makes the runs of stages of fields and of stages of cells, and the first report of their
-// progress.
+// Makes the run of a stage of fields or of crawling cells, and the first report of its progress.
 #include "run/simulation/running_stage.h"
 
 #include "lang/program/stage_kinds.h"

@@ -1,4 +1,4 @@
-// The interface of a running stage, either of fields or of crawling cells.
+// The interface of a stage that runs, either of fields or of crawling cells.
 #pragma once
 
 #include "core/result.h"
@@ -15,21 +15,22 @@
 
 namespace cascade {
 
-/// When and how the state of a run is saved during steps. If `is_due` is empty, it is never saved.
+/// When and how the state of a run is saved while steps are taken. If `is_due` is empty, the state
+/// is never saved.
 struct Keeping {
     std::function<bool()> is_due;
     std::function<void()> keep;
 };
 
-/// The times at which a running stage is observed. See Simulation::advance_stage().
+/// The times at which a stage that runs is observed. See Simulation::advance_stage().
 struct Observation {
     std::function<void()> observe;
     std::int64_t every = 0;
     NextMoment next_moment = {};
 };
 
-/// The run of one stage that has been started. As long as it exists, nothing else may change the
-/// states of the simulation.
+/// The run of a stage that has been started. As long as this object exists, nothing else may change
+/// the states of the simulation.
 class RunningStage {
 public:
     RunningStage() = default;
@@ -43,8 +44,8 @@ public:
     virtual Result<StageEnd> advance(std::int64_t last_step, RunControl& control,
                                      const Observation& observation) = 0;
     /// Whether advance() may be called again. It must not be called again after the end of the
-    /// stage, a failure or a cancellation, nor after the search for doubts about the result, which
-    /// reuses the stage's memory.
+    /// stage, a failure or a cancellation. It must also not be called again after the search for
+    /// doubts about the result, which reuses the stage's memory.
     virtual bool can_go_on() const = 0;
 };
 
@@ -52,7 +53,7 @@ public:
 std::unique_ptr<RunningStage> run_of(const Environment& environment, std::span<StageState> states,
                                      std::uint32_t stage, const Keeping& keeping);
 
-/// The report of progress before the first step of a stage.
+/// Returns the report of progress before the first step of a stage.
 Progress progress_of(const Environment& environment, std::uint32_t stage);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Starts stages and advances the one that runs.
+// Starts stages, and advances the stage that runs.
 #include "run/simulation/simulation.h"
 
 #include "lang/program/stage_kinds.h"
@@ -26,14 +26,14 @@ Result<std::shared_ptr<TieredBackend>> make_stepper(const SimulationOptions& opt
 struct Simulation::Implementation {
     std::unique_ptr<StagesOnGrids> stages;
     Keeping keeping;
-    bool has_expected = false;  ///< Whether `stepper` has been told the kernels of later stages.
+    /// Whether the stepper has been told which kernels later stages need.
+    bool has_expected = false;
     /// The run of the stage that advanced last. Null if it cannot continue.
     std::unique_ptr<RunningStage> run;
-    /// By stage: the kernels of ended stages, if some of them may still turn out not to be
-    /// compilable.
+    /// The kernels of ended stages, by stage, if compiling some of them may still fail.
     std::map<std::uint32_t, StepKernels> unsettled;
 
-    /// Everything that all stages share, except for stages on coarser grids.
+    /// Returns everything that all stages share. A stage on a coarser grid has its own environment.
     Environment& environment() const { return stages->domain(); }
 
     /// Must be called before states are changed.
@@ -49,8 +49,7 @@ struct Simulation::Implementation {
                       [](const auto& of_stage) { return !of_stage.second.is_provisional(); });
     }
 
-    /// Lets the stepper compile the kernels of stages after `k` in advance if their steps take
-    /// long.
+    /// Lets the stepper compile kernels in advance for all stages after `k` whose steps take long.
     void expect_stages_after(std::uint32_t k) {
         const KernelMaker& kernels = environment().kernels;
         if (!kernels.starts_interpreted() || std::exchange(has_expected, true)) return;

@@ -28,42 +28,45 @@
 namespace cascade {
 
 struct SimulationOptions {
-    std::string_view backend = fastest_backend().name;  ///< A name from the table of backends.
+    std::string_view backend = fastest_backend().name;  ///< A name in the table of backends.
     int lanes = 0;                                      ///< See BackendOptions.
-    int threads = 0;                                    ///< 0: as many as the machine has.
+    int threads = 0;                                    ///< 0: as many threads as the machine has.
     /// Makes the executor that takes the steps of stages of fields. No result depends on it.
     MakeExecutor executor = make_thread_executor;
     /// Compiles the steps of several simulations, so that equal kernels are compiled only once. If
-    /// null, each simulation makes a compiler.
+    /// null, each simulation makes its own compiler.
     std::shared_ptr<TieredBackend> stepper = nullptr;
     /// Receives the progress while the cells of a model are made, and may cancel this work. May be
     /// null.
     RunControl* control = nullptr;
     /// Called with the model before its cells are made. May refuse the model. May be empty.
     std::function<Result<void>(const SurfaceMesh&)> check_model = {};
-    /// The most seconds for making the cells of a model, after which the model is refused. 0: no
-    /// limit.
+    /// The largest number of seconds for making the cells of a model. If they take longer, the
+    /// model is refused. 0: no limit.
     double model_seconds = 0;
-    TimeAccount* account = nullptr;  ///< Receives the times spent. May be null.
+    /// Receives the times that parts of the run take. May be null.
+    TimeAccount* account = nullptr;
     /// The folder in which cells of models are stored. If empty, they are not stored.
     std::filesystem::path cell_cache = {};
     /// The folder in which compiled kernels and the fastest tilings are stored for later processes.
     /// If empty, they are not stored.
     std::filesystem::path kernel_cache = {};
     /// Whether the first steps are interpreted while their code is compiled. On large grids the
-    /// steps wait for their code anyway, because that is faster. No result depends on it.
+    /// steps wait for their code even if this is true, because that is faster. No result depends on
+    /// it.
     bool starts_interpreted = false;
-    std::uint64_t memory_limit = 0;  ///< The most bytes for all fields. 0: all free memory.
-    /// The cells of the script's model if another simulation has made them, or null.
+    /// The largest number of bytes for all fields. 0: all free memory.
+    std::uint64_t memory_limit = 0;
+    /// The cells of the script's model, if another simulation has made them. Otherwise null.
     std::shared_ptr<const ModelCells> known_model = nullptr;
-    /// The sizes that an earlier simulation found (SimulationDomain::known_sizes). No result
-    /// depends on them.
+    /// The factors that an earlier simulation found for sizes (SimulationDomain::known_sizes). No
+    /// result depends on them.
     std::map<std::string, double> known_sizes = {};
     /// The rule by which plans choose the operands that are written to planes. No result depends on
     /// it.
     PlanOptions planning = {Materialise::when_cheaper, false, true};
-    /// The tiling. If empty, it is chosen by the size of the grid and by measurement. No result
-    /// depends on it.
+    /// The tiling of planes. If empty, it is chosen by the size of the grid and by measurement. No
+    /// result depends on it.
     std::optional<Tiling> tiling = {};
 };
 
@@ -71,11 +74,11 @@ struct SimulationOptions {
 /// not available.
 Result<std::shared_ptr<TieredBackend>> make_stepper(const SimulationOptions& options);
 
-/// Returns the first moment after `t` at which a stage is to be observed. Both are times since the
-/// stage began. Infinity if there is no such moment.
+/// Returns the first moment after `t` at which a stage must be observed. Both are times since the
+/// stage began. Returns infinity if there is no such moment.
 using NextMoment = std::function<double(double t)>;
 
-/// The reason why a stage ended.
+/// The reason why advance_stage() ended.
 enum class StageEnd { finished, stopped, cancelled };
 
 class StageView;
@@ -83,16 +86,15 @@ class StageView;
 /// Runs the stages of a checked program one after the other. Owns all fields.
 class Simulation {
 public:
-    /// Checks memory and reads the files that the script names. Errors in files are added to
-    /// `script.diagnostics`, and the result is then a failure. `script` must outlive the
-    /// simulation.
+    /// Checks memory and reads the files that the script names. If a file has errors, adds them to
+    /// `script.diagnostics` and fails. `script` must outlive the simulation.
     static Result<std::unique_ptr<Simulation>> create(Script& script,
                                                       const SimulationOptions& options);
     ~Simulation();
 
     /// Computes the starting values of a stage from earlier stages. Fails if `speed` is not above 0
     /// or a starting value is not finite. Making a grown body takes long. If `cancel` becomes true
-    /// during that time, the call fails and the stage is not started.
+    /// while a body is made, the call fails and the stage is not started.
     Result<void> start_stage(std::uint32_t stage,
                              const std::atomic<bool>& cancel = never_cancelled);
 
@@ -100,54 +102,55 @@ public:
     /// steps. This memory is kept for further calls until the stage ends or states are changed. A
     /// stage with a coarse start first runs on coarser grids, without observation. `observe` is
     /// called at multiples of `every` steps. If `every` is 0, it is called at the stage's interval.
-    /// Without an interval, it is called at multiples of the time that the stage's setting `every`
-    /// gives, or else at tenths of the duration. If `next_moment` is given, `observe` is called at
-    /// its moments instead, with values interpolated between steps (run/simulation/between_steps.h,
-    /// tissue/tissue_moments.h). In a stage of fields this requires a uniform `speed`. If values
-    /// are not finite, the call fails and names stage, species, cell, step and the largest stable
-    /// speed.
+    /// If the stage has no interval, `observe` is called at multiples of the time that the stage's
+    /// setting `every` gives, or at tenths of the duration if there is no such setting. If
+    /// `next_moment` is given, `observe` is called only at its moments, with values interpolated
+    /// between steps (run/simulation/between_steps.h, tissue/tissue_moments.h). In a stage of
+    /// fields this requires a uniform `speed`. If values are not finite, the call fails and names
+    /// stage, species, cell, step and the largest stable speed.
     Result<StageEnd> advance_stage(std::uint32_t stage, std::int64_t last_step, RunControl& control,
                                    const std::function<void()>& observe, std::int64_t every = 0,
                                    const NextMoment& next_moment = {});
 
     /// From now on, calls `is_due` about fifty times a second while steps are taken. If `is_due`
     /// returns true, calls `keep` after the next complete step. A run that continues from the
-    /// states at that moment gives the same result, bit for bit. During steps on coarser grids
-    /// before a stage's first step, nothing is saved.
+    /// states at that moment gives the same result, bit for bit. While a stage runs on coarser
+    /// grids before its first step, nothing is saved.
     void keep_with(std::function<bool()> is_due, std::function<void()> keep);
 
-    /// Waits for compiled code that was not ready when its stage ended, and warns of kernels that
-    /// were interpreted because they could not be compiled.
+    /// Waits for compiled code that was not ready when its stage ended. Warns of kernels that were
+    /// interpreted because they could not be compiled.
     void settle(RunControl& control);
 
-    /// Changes the state of a started stage between two steps, in the stage's own cells. Values
-    /// that were computed from the old state at the start of the stage, such as other parameters
-    /// and values at sides, stay as they are.
+    /// Changes the state of a started stage between two steps, in the stage's own cells. Some
+    /// values were computed from the old state at the start of the stage, such as other parameters
+    /// and values at sides. They stay as they are.
     void change_stage(std::uint32_t stage, const std::function<void(StageState&)>& change);
 
-    /// Carries a run of the same script to the divided cells of this simulation
+    /// Transfers a run of the same script to the divided cells of this simulation
     /// (DomainSettings::detail), and lets `stage` continue here until its pattern has settled
     /// (run/simulation/finer_run.h). No stage of this simulation may have started.
     Result<void> go_on_from(const Simulation& coarse, std::uint32_t stage);
 
     /// Evaluates a formula for pictures at the present state. Returns one field, or three for a
-    /// colour. Cells outside the mask are NaN unless the formula is uniform.
+    /// colour. Values outside the mask are NaN unless the formula is uniform.
     std::vector<Field> evaluate(const Formula& formula, std::uint32_t stage) const;
     /// Evaluates several formulas together, so that common parts are computed once.
     std::vector<Field> evaluate(std::span<const Formula* const> formulas,
                                 std::uint32_t stage) const;
 
     const SimulationDomain& domain() const;
-    /// The domain in the cells of a stage, which may be larger than the script's.
+    /// Returns the domain in the cells of a stage, which may be larger than the script's cells.
     const SimulationDomain& domain(std::uint32_t stage) const;
-    /// The state in the stage's own cells.
+    /// Returns the state of a stage in the stage's own cells.
     const StageState& state(std::uint32_t stage) const;
-    /// The values of an item that varies, one for each cell of the domain's grid. In a stage of
-    /// crawling cells there is one value for each crawling cell instead.
+    /// Returns the values of an item that varies. There is a value for each cell of the domain's
+    /// grid or, in a stage of crawling cells, for each crawling cell.
     const Field& field(std::uint32_t stage, ItemId item) const;
-    /// The present state of a stage and of all stages before it, in the cells of the domain.
+    /// Returns the present state of a stage and of all stages before it, in the cells of the
+    /// domain.
     StageView view(std::uint32_t stage) const;
-    /// The present state of a stage and of all stages before it, in the stage's own cells.
+    /// Returns the present state of a stage and of all stages before it, in the stage's own cells.
     StageView own_view(std::uint32_t stage) const;
 
 private:
@@ -156,15 +159,17 @@ private:
     std::unique_ptr<Implementation> self_;
 };
 
-/// The values of formulas in the first cell, in the order of the formulas. They are meant for
-/// formulas with the same value in all cells, such as aggregates. Common parts are computed once.
+/// Evaluates formulas in the first cell. Returns the values in the order of the formulas. This is
+/// meant for formulas with the same value in all cells, such as aggregates. Common parts are
+/// computed once.
 std::vector<double> evaluate_numbers(const Simulation& simulation,
                                      std::span<const Formula* const> formulas, std::uint32_t stage);
 
-/// The time from the beginning of a stage to its present step. NaN if `speed` varies.
+/// Returns the time from the beginning of a stage to its present step, or NaN if `speed` varies.
 double time_of(const Simulation& simulation, std::uint32_t stage);
 
-/// The last stage that has taken a step, which pictures show by default. 0 if no stage has.
+/// Returns the last stage that has taken a step, which pictures show by default. Returns 0 if no
+/// stage has taken a step.
 std::uint32_t shown_stage(const Simulation& simulation);
 
 }  // namespace cascade

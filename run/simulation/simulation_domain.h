@@ -1,4 +1,5 @@
-// The program that a simulation computes, and its cells. Stages change neither.
+// The program that a simulation computes, and its cells. Stages change neither the program nor the
+// cells.
 #pragma once
 
 #include "core/grid.h"
@@ -22,21 +23,23 @@ struct DomainModel {
 };
 
 struct SimulationDomain {
-    /// The program that runs. Lengths of stages with a size have been scaled.
+    /// The program that runs, in which the lengths of stages with a size have been scaled.
     std::shared_ptr<const Program> program;
-    Grid grid;  ///< On a model, the rows and columns in which its cells are stored.
+    /// The grid. On a model, it consists of the rows and columns in which the model's cells are
+    /// stored.
+    Grid grid;
     std::optional<DomainMask> mask = {};
     std::optional<DomainModel> model = {};
     double memory = 0;  ///< Bytes of all planes that the simulation holds at the same time.
-    /// The factors by which lengths of stages were scaled. Each key describes the trial run that
-    /// found the factor.
+    /// The factors by which lengths of stages were scaled, by keys. The key of a factor describes
+    /// the trial run that found it.
     std::map<std::string, double> known_sizes = {};
 
     const Stage& stage(std::uint32_t k) const { return program->stages[k]; }
     Precision precision() const { return program->domain.precision; }
-    /// The mask, or null if all cells belong to the domain.
+    /// Returns the mask, or null if all cells belong to the domain.
     const DomainMask* inside() const { return mask ? &*mask : nullptr; }
-    /// The cells of the model, which another simulation can share. Null on grids.
+    /// Returns the cells of the model, which another simulation can share. Returns null on grids.
     std::shared_ptr<const ModelCells> shared_model() const {
         return model ? model->cells : nullptr;
     }

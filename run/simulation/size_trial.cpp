@@ -25,15 +25,16 @@ namespace {
 
 /// The sizes of trial runs in one, two or three dimensions.
 struct TrialShape {
-    /// The number of cells along each axis of the first trial, when the wavelength is unknown.
+    /// The number of cells along each axis of the first trial. The wavelength is still unknown in
+    /// this trial.
     std::int64_t first_side;
-    double waves;  ///< The number of waves for which later trials have room along each axis.
+    double waves;  ///< The number of waves that fit along each axis in later trials.
     std::int64_t least_side, most_side;
-    double most_cells;  ///< The largest number of cells for each of these waves.
-    /// The grid shortens a wave of n cells by the fraction `narrowing` / n². The discrete Laplacian
-    /// multiplies the wave by k² (1 − k²h²/12 · m) instead of k², where k = 2π/(n h) and m is the
-    /// mean of Σ dᵢ⁴ over all directions d: 1, 3/4 and 3/5 in one, two and three dimensions. Half
-    /// of that relative error appears in k.
+    double most_cells;  ///< The largest number of cells that a wave has in later trials.
+    /// The grid shortens a wave of n cells by the fraction `narrowing` / n². This is because the
+    /// discrete Laplacian multiplies the wave by k² (1 − k²h²/12 · m), and the exact Laplacian by
+    /// k². Here k = 2π/(n h), and m is the mean of Σ dᵢ⁴ over all directions d: 1, 3/4 and 3/5 in
+    /// one, two and three dimensions. Half of the relative error of k² appears in k.
     double narrowing;
 };
 
@@ -45,25 +46,28 @@ constexpr TrialShape shapes[3] = {
     {48, 7, 40, 56, 8, square(two_pi) / 24 * 3 / 5},
 };
 
-/// A trial is first examined after `first_steps`. It may take as many steps as the stage or the
-/// system gives, whichever are more, and never fewer than `least_most_steps`. If the stage gives no
-/// end, it may take `most_steps_without_end`.
+/// A trial is examined for the first time after `first_steps`. The limit on its steps is the
+/// largest of the stage's steps, the system's steps and `least_most_steps`. If the stage gives no
+/// end, the limit is `most_steps_without_end`.
 constexpr std::int64_t first_steps = 250, least_most_steps = 1000, most_steps_without_end = 64000;
-/// If a stage has a duration, its trial is examined after the fraction `first_part` of the
-/// duration, then whenever the time has doubled, up to `last_part` times the duration.
+/// If a stage has a duration, its trial is examined for the first time after the fraction
+/// `first_part` of the duration, and then whenever the time has doubled. The trial ends at the
+/// latest after `last_part` times the duration.
 constexpr double first_part = 0.125, last_part = 4;
-/// Over a doubling of time, wavelength and contrast count as constant if their relative changes are
-/// below the first two limits. If the wavelength changes by more than the third, the pattern has no
-/// definite wavelength.
+/// Wavelength and contrast count as constant if, while the time doubles, their relative changes are
+/// below `same_wavelength` and `same_contrast`. If the wavelength changes by more than
+/// `other_wavelength`, the pattern has no definite wavelength.
 constexpr double same_wavelength = 0.003, same_contrast = 0.03, other_wavelength = 0.08;
-/// A pattern has a single wavelength if the peak of its spectrum holds at least this fraction of
+/// A pattern has a single wavelength if the peak of its spectrum contains at least this fraction of
 /// the variance.
 constexpr double regular_share = 0.3;
-/// Factors to try first, because the pattern may be too large or too small for the cells.
+/// The factors of the first trials. Several are tried, because the pattern may be too large or too
+/// small for the cells.
 constexpr double first_factors[] = {1, 1.0 / 4, 3, 1.0 / 16, 1.0 / 64, 1.0 / 256};
 constexpr double fewest_cells = 3, fewest_waves = 4;
 /// Trials are repeated until the relative error of the wavelength is below `close_enough`, at most
-/// `most_rounds` times. Trials with an error above `near_enough` are left out of the average.
+/// `most_rounds` times. The factor is averaged over trials, but a trial whose error is above
+/// `near_enough` is left out.
 constexpr double close_enough = 0.01, near_enough = 0.06;
 constexpr std::uint32_t most_rounds = 4;
 
@@ -73,18 +77,19 @@ double relative_change(double now, double before) { return std::abs(now / before
 struct Look {
     bool is_uniform = true;
     double cells = 0;  ///< The wavelength, in cells.
-    double share = 0;  ///< The part of the variance that the spectrum's peak holds.
+    double share = 0;  ///< The fraction of the variance that the peak of the spectrum contains.
     double deviation = 0;
 };
 
 struct Outcome {
-    Look last, before;  ///< The last measurement, and the one at half of its time.
-    int still = 0;      ///< The number of successive measurements without a change.
-    /// Two such measurements are needed, because slow changes add up from one doubling to the next.
+    Look last, before;  ///< The last measurement, and the measurement at half of its time.
+    int still = 0;      ///< The number of successive measurements that found no change.
+    /// Two such measurements are needed, because slow changes add up when the time doubles again.
     bool holds_still() const { return still >= 2; }
 };
 
-/// Tools for trials, which run on small grids in this process, also if ranks share the run.
+/// Returns tools for trials. Trials run on small grids in this process, even if ranks share the
+/// run.
 StepTools alone(StepTools tools) {
     tools.executor = make_thread_executor;
     return tools;
@@ -205,11 +210,12 @@ public:
     Result<double> find(double cells) {
         auto first = first_wave();
         if (!first) return first;
-        // The wavelength of the stage without a grid, in cells, at a factor of 1.
+        // The wavelength, in cells, that the stage would have at a factor of 1 if the grid did not
+        // shorten it.
         const double free = *first;
         const double target = std::min(cells, shape_.most_cells);
         double factor = without_grid(target) / free;
-        // The pattern depends on the random numbers, so the factors of several rounds are averaged.
+        // The pattern depends on random numbers, so the factors of several rounds are averaged.
         double sum = 0;
         int count = 0;
         for (std::uint32_t round = 1; round <= most_rounds; ++round) {
@@ -227,7 +233,8 @@ public:
     }
 
 private:
-    /// The wavelength without a grid of a wave that has `cells` cells on a grid.
+    /// Returns the wavelength that a wave would have without a grid, if it has `cells` cells on a
+    /// grid.
     double without_grid(double cells) const { return cells + shape_.narrowing / cells; }
 
     std::int64_t side_for(double cells) const {
@@ -257,8 +264,8 @@ private:
             const auto grown = run(factor, shape_.first_side);
             if (tools_.control.cancel) return failure("stopped");
             if (!grown) {
-                // Only the stage's own lengths must be stable. Failures with other factors are
-                // ignored.
+                // The stage must be stable only with its own lengths. Failures with other factors
+                // are ignored.
                 if (factor == 1) why = grown.error();
                 continue;
             }

@@ -36,7 +36,7 @@ struct Flicker {
 
 std::optional<Flicker> find_flicker(const EndedStage& ended);
 
-/// A stage that may be in doubt.
+/// A stage whose result may be in doubt.
 class Doubted {
 public:
     explicit Doubted(const EndedStage& stage) : ended(stage), view(stage.view) {}
@@ -46,7 +46,8 @@ public:
 
     const std::string& name() const { return view.stage().name; }
     std::string species(std::size_t number) const { return species_name(view.system(), number); }
-    /// Whether values jump from step to step. Measured once, although several doubts need it.
+    /// Returns the species whose values jump from step to step, if there is one. The first call
+    /// measures this, and later calls return the same result.
     const std::optional<Flicker>& flicker() const {
         if (!flicker_) {
             const bool may_flicker = allows_trial_steps(ended) && !is_exact_map(view);
@@ -64,7 +65,7 @@ bool allows_trial(const Doubted& stage) {
     return allows_trial_steps(stage.ended) && !is_exact_map(stage.view);
 }
 
-// Constraints that were not solved.
+// The following functions find constraints that were not solved.
 
 struct Unsolved {
     const SolveReport& solve;
@@ -98,12 +99,12 @@ std::string describe_unsolved(const Doubted& stage, const Unsolved& report) {
         stage.name(), report.unknown, solve.largest_mean);
 }
 
-// Values that jump back and forth.
+// The following functions find values that jump back and forth.
 
 /// A warning is given if at least this fraction of the cells jumps.
 constexpr double flicker_threshold = 0.01;
-/// A warning is also given if at least this fraction of all changes is undone and steps are too
-/// long even for a regular oscillation.
+/// A warning is also given if at least this fraction of all changes is undone by the next steps,
+/// and if steps are too long even for a regular oscillation.
 constexpr double undone_threshold = 0.4;
 
 std::optional<Flicker> find_flicker(const EndedStage& ended) {
@@ -129,15 +130,16 @@ std::optional<Flicker> find_flicker(const EndedStage& ended) {
     return std::nullopt;
 }
 
-/// A flicker with the longest stable step, if known.
+/// Values that jump back and forth, with the longest stable step if it is known.
 struct SureFlicker {
     Flicker flicker;
     StepInUse use;
     std::optional<double> limit;
 };
 
-/// Compares the step with its stability limit. Changes that undo each other irregularly may be
-/// waves with a period of a few steps. Only a step beyond the limit shows that they are errors.
+/// Finds values that jump back and forth because of the length of steps. Changes that undo each
+/// other irregularly may be waves with a period of a few steps. Such changes count as errors only
+/// if the step exceeds its stability limit.
 std::optional<SureFlicker> find_sure_flicker(const Doubted& stage) {
     if (!stage.flicker()) return std::nullopt;
     const StageView& view = stage.view;
@@ -163,9 +165,9 @@ std::string describe_flicker(const Doubted& stage, const SureFlicker& sure) {
     return text + fmt::format("try 'speed: {:.2g}'", use.speed / 2);
 }
 
-// Describes neighbours that alternate because of the steps or the rate.
+// The following functions describe neighbours that alternate because of the steps or the rate.
 
-/// The number of the first species that alternates from cell to cell.
+/// Returns the number of the first species that alternates from cell to cell.
 std::optional<std::size_t> find_alternating(const Doubted& stage) {
     const StageView& view = stage.view;
     if (is_exact_map(view)) return std::nullopt;
@@ -178,8 +180,8 @@ std::optional<std::size_t> find_alternating(const Doubted& stage) {
         const StageCourse& course = view.state().course;
         const double once = course.empty() ? 0 : course.last().largest[k];
         if (alternating_part(field, here.counted(), links) < chequerboard_threshold) return false;
-        // Small values consist of rounding errors, or of errors within the solver's tolerance. Such
-        // errors may well contain the shortest waves.
+        // If the differences between cells are small, they are rounding errors or errors within the
+        // solver's tolerance. Such errors may well contain the shortest waves.
         const FieldMoments values = moments(field, here.counted());
         const double errors =
             time.chooses_steps() ? time.step_tolerance() * values.root_mean_square : 0;
@@ -190,8 +192,8 @@ std::optional<std::size_t> find_alternating(const Doubted& stage) {
     return static_cast<std::size_t>(found - species.begin());
 }
 
-/// Describes a species that alternates from cell to cell. "" unless the step is too long or a rate
-/// makes differences between neighbours grow, because the pattern may otherwise be a lattice.
+/// Describes a species that alternates from cell to cell, if the step is too long or a rate makes
+/// differences between neighbours grow. Otherwise returns "", because the pattern may be a lattice.
 std::string describe_chequerboard(const Doubted& stage, std::size_t species) {
     const StageView& view = stage.view;
     StepInUse use = view.step_in_use();
@@ -217,10 +219,10 @@ std::string describe_chequerboard(const Doubted& stage, std::size_t species) {
     return {};
 }
 
-// Values that shorter steps would move differently.
+// The following functions find values that shorter steps would change in another way.
 
-/// The number of shorter steps that replace one step in a check. Two would not suffice: values that
-/// alternate with each step often alternate with steps of half the length, too.
+/// The number of shorter steps that replace one step in a check. Two would not be enough. Values
+/// that alternate with each step often alternate with steps of half the length, too.
 constexpr std::int64_t shorter_steps = 3;
 
 bool could_take_shorter_steps(const Doubted& stage) {
@@ -230,12 +232,12 @@ bool could_take_shorter_steps(const Doubted& stage) {
            !knows_its_steps(view.program(), view.number());
 }
 
-/// A species that moves differently, or not at all, with shorter steps.
+/// A species that changes in another way, or not at all, with shorter steps.
 struct Astray {
     std::string species;
-    double change = 0;             ///< The distance that steps move the values (root mean square).
-    double change_of_shorter = 0;  ///< The same for shorter steps that take the same time.
-    double apart = 0;              ///< The distance between the two results.
+    double change = 0;             ///< The root mean square of the change by the steps.
+    double change_of_shorter = 0;  ///< The same for the shorter steps, which take the same time.
+    double apart = 0;              ///< The distance between the two results, as a root mean square.
 };
 
 std::optional<Astray> find_astray(const Doubted& stage) {
@@ -281,7 +283,7 @@ std::string describe_astray(const Doubted& stage, const Astray& found) {
     return text + fmt::format("try 'speed: {:.2g}'", use.speed / 3);
 }
 
-// Changes that are lost by rounding.
+// The following functions find changes that are lost by rounding.
 
 bool may_lose_changes(const Doubted& stage) { return could_lose_changes(stage.view); }
 std::optional<ChangesLost> find_changes_lost(const Doubted& stage) {
@@ -296,7 +298,7 @@ std::string describe_changes_lost(const Doubted& stage, const ChangesLost& found
         stage.name(), found.species, found.change, found.value, found.lost);
 }
 
-// Amounts in a domain that grows.
+// The following functions find wrong amounts in a domain that grows.
 
 bool grows(const Doubted& stage) { return stage.view.stage().growth.has_value(); }
 std::optional<AmountChanged> find_amount_changed(const Doubted& stage) {

@@ -7,8 +7,8 @@
 
 namespace cascade {
 
-/// A warning about the first reason to doubt the result of a stage that has taken steps. "" if
-/// there is none.
+/// Returns a warning about the first reason to doubt the result of a stage that has taken steps.
+/// Returns "" if there is no such reason.
 std::string find_doubt(const EndedStage& ended);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Records everything that a run needs to continue a stage from one moment.
+// Records everything that a run needs to continue a stage from a moment.
 #pragma once
 
 #include "core/plane.h"
@@ -20,13 +20,13 @@ namespace cascade {
 class Simulation;
 struct TissueRecord;
 
-/// Values by the names of their items: all species, and the parameters that the start of the stage
-/// cannot compute again.
+/// The values of items, by the names of the items: all species, and the parameters that the start
+/// of the stage cannot compute again.
 using RecordedFields = std::map<std::string, Field, std::less<>>;
 using RecordedCells = std::shared_ptr<const TissueRecord>;  ///< Never null.
 
 /// A moment of a stage from which its run can continue, in the stage's own cells. If `time` and
-/// `watch` are empty, step lengths are chosen as at the start of a stage.
+/// `watch` are empty, the lengths of steps are chosen as at the start of a stage.
 struct StageRecord : StageMoment {
     /// The fields or the crawling cells.
     std::variant<RecordedFields, RecordedCells> values;
@@ -40,11 +40,11 @@ StageRecord record_of(const StageState& state, const Program& program, std::uint
                       const std::set<std::string>& parameters = {});
 
 /// Lets a started stage continue from another moment. The record must contain all species of a
-/// stage of fields, or all values of crawling cells. Only two facts about the moment in the record
-/// are used: the number of steps, and whether the stage has ended.
+/// stage of fields, or all values of crawling cells. Crawling cells record their own time and
+/// lengths of steps. So for them, `t` and `time` of the record are not used.
 void restore(Simulation& simulation, std::uint32_t stage, StageRecord record);
 
-/// The items that a record may contain: species, and parameters that vary.
+/// Returns the items that a record may contain: species, and parameters that vary.
 std::vector<ItemId> recorded_items(const Program& program, std::uint32_t stage);
 
 }  // namespace cascade

@@ -1,5 +1,6 @@
-// Prepares a stage in the first call and continues it in each further call. If steps fail, the
-// largest stable speed is estimated from the last good state and from the start of the stage.
+// Prepares a stage in the first call of advance() and continues it in each further call. If steps
+// fail, the largest stable speed is estimated from the last good state and from the start of the
+// stage.
 #include "run/simulation/stage_run.h"
 
 #include "core/parallel.h"
@@ -25,7 +26,8 @@
 namespace cascade {
 namespace {
 
-/// Steps between two entries of a stage's course. Short stages get as many entries as long ones.
+/// Returns the number of steps between two entries of a stage's course. Short stages get as many
+/// entries as long ones.
 std::int64_t look_every(const Stage& stage, std::int64_t usual) {
     constexpr std::int64_t looks = 10;
     return std::clamp<std::int64_t>(stage.iterations / looks, 1, usual);
@@ -45,9 +47,8 @@ Failure explain(const StepTooShort& place, const StageView& view) {
     return failure;
 }
 
-/// Explains an outcome with a value that is not finite, or with steps that have become too short.
-/// `state` must be the state that the view shows. If its values are spoiled, it is reset to the
-/// start of the stage.
+/// Explains a failure: a value is not finite, or steps have become too short. `state` must be the
+/// state that the view shows. If its values are not finite, it is reset to the start of the stage.
 Failure explain(const StageOutcome& outcome, const StageView& view, StageState& state,
                 const std::atomic<bool>& cancel) {
     const double step = outcome.steps > 0 ? outcome.t / static_cast<double>(outcome.steps) : 0;
@@ -71,7 +72,8 @@ Failure explain(const StageOutcome& outcome, const StageView& view, StageState& 
         return found;
     };
     const std::size_t count = state.species().size();
-    // Without a kept copy, `state` holds the spoiled values, even if two checks are one step apart.
+    // If no copy of the last good values was kept, `state` contains values that are not finite.
+    // This is so even if values are checked after every step.
     const bool keeps = !outcome.last_checked.empty();
     std::vector<Field> last_finite;
     if (keeps) {
@@ -79,8 +81,8 @@ Failure explain(const StageOutcome& outcome, const StageView& view, StageState& 
         report.largest_before = largest_magnitude(state.species());
         last_finite = std::move(state.species());
     }
-    // A state that grows towards infinity gives a poor estimate of the largest stable speed, so the
-    // start of the stage is used as well.
+    // If a state grows towards infinity, it gives a poor estimate of the largest stable speed. So
+    // the speed is also estimated at the start of the stage.
     state.species().clear();
     state.species().resize(count);
     state.species() = view.starting_species();
@@ -90,7 +92,7 @@ Failure explain(const StageOutcome& outcome, const StageView& view, StageState& 
     if (keeps) {
         state.species() = std::move(last_finite);
     } else {
-        // Spoiled values are useless, so the stage is reset to its start.
+        // Values that are not finite are useless, so the stage is reset to its start.
         state.time = {};
         state.go_to(0, 0);
     }
@@ -140,7 +142,7 @@ Result<StageEnd> StageRun::advance(std::int64_t last_step, RunControl& control,
     return std::move(*over);
 }
 
-/// Resets the stage to its start, because the values that it had are lost with the device.
+/// Resets the stage to its start. The values that it had are lost together with the device.
 Result<StageEnd> StageRun::reset_after(Failure why) {
     loop_.reset();
     between_.reset();
@@ -186,7 +188,7 @@ std::optional<Result<StageEnd>> StageRun::begin(std::int64_t last_step) {
     return std::nullopt;
 }
 
-/// Completes all steps at once, because nothing changes if all cells are frozen.
+/// Completes all steps at once. If all cells are frozen, nothing changes.
 StageEnd StageRun::end_frozen(std::int64_t last_step) {
     const bool has_duration = view_.stage().time.has_duration();
     state_.go_to(has_duration ? 0 : last_step, state_.t);
@@ -222,15 +224,15 @@ Schedule StageRun::schedule() {
     return schedule;
 }
 
-/// Adds the spread of the present values to the record of the stage (run/stage/stage_course.h).
+/// Adds the spread of the present values to the course of the stage (run/stage/stage_course.h).
 void StageRun::look() {
-    // If `speed` varies, cells have no common time, so steps are counted instead.
+    // If `speed` varies, the cells have no common time, so steps are counted in place of time.
     const bool is_timed = view_.stage().uniform[view_.system().speed_item()];
     const double age = is_timed ? state_.t : static_cast<double>(state_.steps);
     state_.course.look(state_.steps, age, state_.species(), view_.environment().counted());
 }
 
-/// Called at complete steps. If moments are observed, values are interpolated at the moments since
+/// Called at complete steps. If moments are observed, interpolates the values at the moments since
 /// the previous step.
 void StageRun::observe(const Observation& observation) {
     if (between_) {
@@ -248,7 +250,7 @@ Result<StageEnd> StageRun::take_steps(std::int64_t last_step, const Observation&
         const bool has_long_steps =
             takes_long_steps(view_.stage().time.solver) || timer_.substeps() > 1;
         between_.emplace(view_, state_, has_long_steps, [this] { return loop_->curve(); });
-        observe(observation);  // Copies the state before the first step.
+        observe(observation);  // Before the first step, this only copies the state.
     }
     const StageOutcome outcome =
         loop_->advance(last_step, interval, *control_,
@@ -265,7 +267,7 @@ Result<StageEnd> StageRun::take_steps(std::int64_t last_step, const Observation&
     const bool is_done = is_good && (outcome.ended || state_.steps >= view_.stage().iterations);
     const bool looks_for_doubts = control_->warn && (is_done || !control_->checks_later);
     can_go_on_ = is_good && !is_done && state_.steps > 0 && !looks_for_doubts;
-    // The checks that follow need the memory of the loop.
+    // The checks that follow need the memory that the loop holds.
     if (!can_go_on_) loop_.reset();
     if (outcome.not_finite || outcome.too_short)
         return tl::unexpected(explain(outcome, view_, state_, control_->cancel));
@@ -283,7 +285,7 @@ void StageRun::look_for_doubts() {
     const std::string doubt = state_.steps > 0 ? find_doubt({view_, state_, timer_}) : "";
     if (!doubt.empty()) {
         control_->warn(doubt);
-        // A stage in doubt gets no remarks, so its course is not needed.
+        // If there is a doubt about the stage, it gets no remarks, so its course is not needed.
         state_.course = {};
     }
     undefined_.look_at_end(view_, *control_);
@@ -291,7 +293,7 @@ void StageRun::look_for_doubts() {
     if (lost_.are_told()) state_.course = {};
 }
 
-/// Adds the steps taken, and their time, to the account.
+/// Adds the number of steps taken and their time to the account.
 void StageRun::account_for(std::int64_t steps, const StageOutcome& outcome) const {
     const Environment& here = view_.environment();
     TimeAccount::Stage& entry = here.account.stage(view_.number());

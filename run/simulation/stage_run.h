@@ -1,5 +1,5 @@
-// Runs a stage of fields. Holds everything that its steps need from start to end: kernels, bound
-// passes, step-invariants, copies of species, threads, and measurements of speed.
+// Runs a stage of fields. Holds everything that its steps need from the first to the last: kernels,
+// bound passes, step-invariants, copies of species, threads, and measurements of speed.
 #pragma once
 
 #include "core/result.h"
@@ -57,7 +57,7 @@ private:
     StageTimer timer_;
     std::optional<StageTilings> tilings_;
     NextMoment next_moment_;               ///< The moments of the present call of advance().
-    std::optional<BetweenSteps> between_;  ///< Empty unless moments are observed.
+    std::optional<BetweenSteps> between_;  ///< Empty if no moments are observed.
     std::optional<TimeLoop> loop_;         ///< Empty before the first step.
     bool can_go_on_ = true;
 };

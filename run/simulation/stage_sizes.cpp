@@ -1,4 +1,5 @@
-// Factors are stored under the text of the trial program: equations, parameters, start, solver.
+// Factors are stored under the text of the trial program, which consists of equations, parameters,
+// start and solver.
 #include "run/simulation/stage_sizes.h"
 
 #include "core/check.h"
@@ -26,12 +27,12 @@ namespace cascade {
 
 namespace {
 
-/// The digit at the end of the second string must change whenever the way of finding factors
-/// changes.
+/// The digit at the end of the second string must be changed whenever factors are found in another
+/// way.
 constexpr KeptFiles::Kind size_files{".size", "CascSiz1", std::uint64_t{1} << 20};
 
-/// Factors by their keys: factors that this or an earlier simulation of the process has found, and
-/// factors on disk.
+/// Stores factors by their keys. The factors that this process has found are in memory, and all
+/// factors are also on disk.
 class KeptFactors {
 public:
     KeptFactors(const std::filesystem::path& folder, std::map<std::string, double>& known)
@@ -59,7 +60,7 @@ private:
     std::map<std::string, double>& known_;
 };
 
-/// The side of a square that has the area of the mean cell, in units of the domain.
+/// Returns the side of a square that has the area of the mean cell, in units of the domain.
 double cell_width(const Environment& here) {
     const DomainSettings& domain = here.program->domain;
     if (here.model) {
@@ -79,22 +80,22 @@ double cell_width(const Environment& here) {
     return std::sqrt(area / static_cast<double>(here.grid.cell_count()));
 }
 
-/// The longest possible wave, in cells: the longest side of the grid, or the side of a square with
-/// as many cells as the model.
+/// Returns the longest possible wave, in cells. On a grid it is as long as the longest side, and on
+/// a model as long as the side of a square with as many cells as the model.
 double longest_wave(const Environment& here) {
     if (!here.model) return static_cast<double>(here.grid.longest_side());
     return std::sqrt(static_cast<double>(here.model->cells->count()));
 }
 
-/// The key of a trial. It does not depend on the end of the stage, because trials end by other
-/// rules.
+/// Returns the key of a trial. It does not depend on the end of the stage, because trials end by
+/// their own rules.
 std::string key_of(const Program& trial, std::uint32_t stage, double cell, double cells) {
     Program keyed = trial;
     const bool has_steps = !trial.stages[stage].time.has_duration();
-    // The stage's steps matter only if a trial takes more because of them.
+    // The number of the stage's steps matters only if the trial takes more steps because of it.
     if (has_steps) keyed.stages[stage].iterations = trial_steps(trial, stage);
     keyed.stages[stage].interval = 0;
-    // Trials have another grid.
+    // The trial has its own grid, so the stage's grid does not belong to the key.
     Grid& grid = keyed.domain.grid;
     grid.spacing = 1;
     for (std::int64_t* const side : {&grid.width, &grid.height, &grid.depth}) {
@@ -103,7 +104,7 @@ std::string key_of(const Program& trial, std::uint32_t stage, double cell, doubl
     return fmt::format("{}\n{} cells of {}\n{}", version(), cells, cell, print_program(keyed));
 }
 
-/// The length of one unit of a model, in the script's unit of length.
+/// Returns the length of one unit of a model, in the script's unit of length.
 double unit_in_scripts(const ModelSettings& model, const ModelCells& cells) {
     const double unit = model.unit ? *model.unit : cells.spread().unit;
     return unit / ModelBox(cells.mesh).longest;

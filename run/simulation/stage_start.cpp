@@ -1,4 +1,4 @@
-// Starting values are computed in the order of the plans, and sides after them.
+// Computes starting values in the order of the plans, and the values at sides after them.
 #include "run/simulation/stage_start.h"
 
 #include "core/check.h"
@@ -35,7 +35,8 @@ void start_varying_items(const StageView& view, StageState& state) {
     take_values(state, view.program(), view.number(), plan.results, values);
 }
 
-/// Whether rows and columns of the surface meet at an oblique angle beside a side with a slope.
+/// Whether the rows and columns of the surface meet at an oblique angle in any cell at this side.
+/// Only sides with a slope are examined. For other sides, the result is false.
 bool is_sheared_at(const Environment& here, Side side, SideKind kind) {
     if (here.metric.empty() || kind != SideKind::slope) return false;
     const auto at = [&](MetricPlane plane, std::int64_t offset) {
@@ -52,8 +53,8 @@ bool is_sheared_at(const Environment& here, Side side, SideKind kind) {
     return false;
 }
 
-/// Prepares the value of one species at a side, so that it can be computed for any moment. The
-/// parts that do not depend on the moment are computed here, from the present state.
+/// Prepares the value of one species at a side, so that it can be computed for any moment. Computes
+/// the parts that do not depend on the moment from the present state.
 ChangingSide bind_side(const SidePlans& plans, std::uint32_t stage, SpeciesId species, Side side,
                        const Compile& compile, const BindingContext& context, Team& team) {
     const IdVector<StepInvariantId, Field> step_invariants(
@@ -78,7 +79,7 @@ ChangingSide bind_side(const SidePlans& plans, std::uint32_t stage, SpeciesId sp
         const auto* const id = std::get_if<StepInvariantId>(&source);
         const Field& plane = id != nullptr ? step_invariants[*id] : plane_of(source, context);
         std::vector<double>& strip = changing.strips.emplace_back(values_beside(plane, side));
-        // Kernels read whole vectors, so the strip is padded.
+        // Kernels read whole vectors, so padding is added to the strip.
         strip.resize(strip.size() + PlaneLayout::row_pad);
     }
     for (const UniformSource& source : bound.uniforms) {
@@ -99,9 +100,9 @@ ChangingSide bind_side(const SidePlans& plans, std::uint32_t stage, SpeciesId sp
     return changing;
 }
 
-/// Finds the rules of species and definitions at the sides. The values of these rules are formulas
-/// that may read any starting value. A value that is uniform along its side is stored as a number.
-/// Until the rules are found, the boundary of the domain applies.
+/// Finds the rules of species and definitions at the sides. The values in these rules are formulas
+/// that may read any starting value. If a value is the same along its whole side, it is stored as a
+/// number. Until the rules are found, the boundary of the domain applies.
 class SideFinder {
 public:
     SideFinder(const StageView& view) : view_(view), here_(view.environment()) {}
@@ -182,7 +183,7 @@ Result<void> check_speed(const StageView& view) {
                                view.stage().name, text));
 }
 
-/// Refuses convolutions over too many cells before any is computed.
+/// Refuses a convolution over too many cells before any convolution is computed.
 Result<void> check_reaches(const StageView& view) {
     const Environment& here = view.environment();
     Result<void> good;
@@ -211,7 +212,7 @@ Result<void> check_reaches(const StageView& view) {
 }  // namespace
 
 void start_uniform_items(const StageView& view, StageState& state) {
-    // A grid of one cell suffices for uniform items.
+    // Uniform items can be computed on a grid of one cell.
     const StepPlan plan = plan_uniform_start(view.program(), view.number());
     const Grid one{1, 1, Boundary::periodic};
     const Environment& here = view.environment();

@@ -17,8 +17,8 @@ namespace cascade {
 void start_uniform_items(const StageView& view, StageState& state);
 
 /// Computes the starting values of a stage from earlier stages. Fails if `speed` is not above 0 or
-/// if a side with a flux meets a sheared part of the surface. A stage of cells fails like
-/// start_tissue().
+/// if a side with a flux meets a sheared part of the surface. A stage of crawling cells also fails
+/// in the same cases as start_tissue().
 Result<void> start_stage(const Environment& environment, std::span<StageState> states,
                          std::uint32_t stage, const std::atomic<bool>& cancel = never_cancelled);
 

@@ -23,11 +23,11 @@ namespace cascade {
 namespace {
 
 constexpr std::int64_t fewest_moments = 16;
-/// The most cells at which a formula is evaluated, summed over all moments. This takes a fraction
-/// of a second.
+/// The largest number of evaluations of a formula in a cell, over all moments together. They take a
+/// fraction of a second.
 constexpr std::int64_t most_cells_of_moments = std::int64_t{1} << 23;
 
-/// The sum of |a − b| over the cells. Differences that are not finite count as 0.
+/// Returns the sum of |a − b| over the cells. Differences that are not finite count as 0.
 double sum_of_changes(const Field& a, const Field& b, const Mask* counted) {
     double sum = 0;
     with_number(a.precision(), [&](auto zero) {
@@ -41,7 +41,7 @@ double sum_of_changes(const Field& a, const Field& b, const Mask* counted) {
     return sum;
 }
 
-/// The sum of |a − mean| over the cells.
+/// Returns the sum of |a − mean| over the cells. Values that are not finite are left out.
 double sum_of_differences(const Field& a, const Mask* counted) {
     double sum = 0, cells = 0, differences = 0;
     a.visit([&](const auto& plane) {
@@ -60,7 +60,8 @@ double sum_of_differences(const Field& a, const Mask* counted) {
     return differences;
 }
 
-/// Returns the values of a formula of constants and `t` alone. The view must outlive the result.
+/// Returns the values, as a function of time, of a formula that contains only constants and `t`.
+/// The view must outlive the result.
 ValueAt values_at(const StageView& view, const Formula& formula) {
     const Grid one{1, 1, Boundary::periodic};
     const auto runner =
@@ -76,9 +77,9 @@ ValueAt values_at(const StageView& view, const Formula& formula) {
 }
 
 /// Returns how much a formula of constants, positions and `t` changes within 1/1000 of the
-/// duration, at up to 1000 evenly spread moments. Large grids get fewer moments. Each change is the
-/// sum of |change| over the cells, divided by the largest sum of |difference from the mean| at any
-/// of the moments.
+/// duration, at up to 1000 evenly spread moments. On large grids, there are fewer moments. Each
+/// result is a sum of |change| over the cells, divided by a sum over the cells of |difference from
+/// the mean|, which is taken at the moment at which it is largest.
 std::vector<double> motion_over(const StageView& view, const Formula& formula, double duration) {
     const Environment& here = view.environment();
     const Formula* const formulas[] = {&formula};
@@ -107,7 +108,7 @@ std::vector<double> motion_over(const StageView& view, const Formula& formula, d
     return changes;
 }
 
-/// Redirects the plan's results to new temporaries. Returns these temporaries.
+/// Writes the plan's results to new temporaries, and returns these temporaries.
 std::vector<TemporaryId> results_to_temporaries(StepPlan& plan) {
     std::vector<TemporaryId> planes;
     for (PassTarget& target : plan.passes.back().targets) {
@@ -118,9 +119,9 @@ std::vector<TemporaryId> results_to_temporaries(StepPlan& plan) {
     return planes;
 }
 
-/// The diffusion of a stage's species, for the filters of semi-implicit solvers. Constant factors
-/// are computed once. A factor that changes is recomputed in each step, as the largest value of a
-/// plane.
+/// Stores the diffusion of a stage's species for the filters of semi-implicit solvers. Constant
+/// factors are computed only once. A factor that changes is computed again in each step, as the
+/// largest value of a plane.
 class BoundDiffusion {
 public:
     /// Returns the largest value of each formula over the cells, at the present state.
@@ -128,18 +129,18 @@ public:
 
     BoundDiffusion(const Program& program, std::uint32_t stage, const Largest& largest);
 
-    /// The passes that write the changing factors to temporary planes, before the passes of a step.
-    /// Empty if no factor changes.
+    /// Returns the passes that write the changing factors to temporary planes, before the passes of
+    /// a step. There are no passes if no factor changes.
     const StepPlan& before() const { return before_; }
 
-    /// Adds the factors to a problem that begins with the passes of before(). The planes are then
-    /// reduced to their largest values.
+    /// Adds the factors to a problem that begins with the passes of before(). Each plane of a
+    /// factor is reduced to its largest value.
     void add_to(StepProblem& problem) const;
 
 private:
     std::vector<DiffusionTerms<StepProblem::DiffusionFactor>> factors_;
     StepPlan before_;
-    std::vector<TemporaryId> planes_;  ///< The temporary of each changing factor.
+    std::vector<TemporaryId> planes_;  ///< The temporary that contains each changing factor.
 };
 
 BoundDiffusion::BoundDiffusion(const Program& program, std::uint32_t stage,
@@ -264,7 +265,7 @@ StepWork step_work(Simulation& simulation, std::uint32_t k) {
         const StepInvariants invariants = find_step_invariants(view);
         view.use(invariants);
         StageTimer timer(view.program(), k, state,
-                         stage_tools(view, {}));  // Binds only. No pass is run.
+                         stage_tools(view, {}));  // Passes are only bound. None is run.
         work = work_of(timer.problem());
     });
     return work;

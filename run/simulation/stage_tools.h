@@ -1,5 +1,4 @@
-// Gives a stage's timer the values of the simulation that it needs, and computes the
-// step-invariants.
+// Computes the values of the simulation that a stage's timer needs, and the step-invariants.
 #pragma once
 
 #include "run/simulation/simulation.h"
@@ -11,13 +10,13 @@
 
 namespace cascade {
 
-/// `steps` makes the kernels of steps. The view is copied.
+/// Makes the tools of a stage's timer. `steps` makes the kernels of steps. The view is copied.
 StageTools stage_tools(const StageView& view, Compile steps);
 
 /// Computes the step-invariants from the present state.
 StepInvariants find_step_invariants(const StageView& view);
 
-/// The work of one step of a started stage in its present state.
+/// Counts the work of one step of a started stage in its present state.
 StepWork step_work(Simulation& simulation, std::uint32_t stage);
 
 }  // namespace cascade

@@ -31,8 +31,8 @@ std::vector<Field> StageView::run(const StepPlan& plan,
                     environment_->team);
 }
 
-/// The species of this stage if the formula is nothing but this species, whose plane can be copied.
-/// Null otherwise.
+/// If the formula is nothing but a species of this stage, returns the plane of this species, which
+/// can be copied. Otherwise returns null.
 const Field* StageView::species_alone(const Formula& formula) const {
     if (state().tissue() != nullptr || environment_->inside() != nullptr ||
         formula.nodes.size() != 1) {
@@ -59,7 +59,7 @@ std::vector<Field> StageView::evaluate(const Formula& formula) const {
 }
 
 StepInvariants StageView::step_invariants(const StepPlan& once) const {
-    // Each weight by a tensor has three results, and these follow all other results.
+    // The results for weights by tensors, three for each, follow all other results.
     const std::uint32_t others = once.result_count - 3 * once.tensor_weights;
     StepInvariants found(others + once.tensor_weights);
     if (found.empty()) return found;
@@ -85,8 +85,9 @@ StepInvariants StageView::step_invariants(const StepPlan& once) const {
     return found;
 }
 
-/// Calls use(view, plan) with a plan of the rates and a view that has the step-invariants that the
-/// plan reads. They are computed anew, because rates are also needed before a stage has its own.
+/// Calls use(view, plan) with a plan of the rates and a view with the step-invariants that the plan
+/// reads. These step-invariants are computed anew, because rates are also needed before a stage has
+/// its own.
 template <typename Use>
 auto StageView::with_rates(const Use& use) const {
     const StepPlan plan = plan_rates(program(), number_);
@@ -115,7 +116,7 @@ std::vector<Field> StageView::starting_species() const {
 
 StabilityEstimate StageView::stability(std::span<const Field> species, const Compile& compile,
                                        const std::atomic<bool>* cancel) const {
-    // Frozen cells cannot blow up. They are left out here, because rates ignore `frozen`.
+    // Frozen cells cannot blow up, so they are left out. The rates themselves ignore `frozen`.
     const Mask* frozen = state().frozen().empty() ? nullptr : &state().frozen();
     const DomainMask* inside = environment_->inside();
     const Mask still = inside != nullptr ? still_cells(*inside, frozen) : Mask();

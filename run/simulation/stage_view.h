@@ -1,4 +1,4 @@
-// The present state of a stage and of the stages before it. Evaluates formulas on it.
+// The present state of a stage and of the stages before it, on which formulas can be evaluated.
 #pragma once
 
 #include "core/plane.h"
@@ -18,8 +18,8 @@ namespace cascade {
 
 class StageView {
 public:
-    /// All arguments must outlive the view. `invariants` are the step-invariants. Null if no steps
-    /// are taken.
+    /// All arguments must outlive the view. `invariants` are the step-invariants. They may be null
+    /// if no steps are taken.
     StageView(const Environment& environment, std::span<const StageState> states,
               std::uint32_t stage, const StepInvariants* invariants = nullptr)
         : environment_(&environment), states_(states), number_(stage), invariants_(invariants) {}
@@ -34,17 +34,17 @@ public:
     const System& system() const { return program().system_of(number_); }
     const StageState& state() const { return states_[number_]; }
 
-    /// The places where the slots of kernels find their present values.
+    /// Returns the context through which the slots of kernels are bound to present values.
     BindingContext context() const;
-    /// Evaluates a plan or formulas outside of steps.
+    /// Evaluates a plan that is not part of a step.
     std::vector<Field> evaluate(const StepPlan& plan) const { return run(plan, {}); }
     std::vector<Field> evaluate(std::span<const Formula* const> formulas) const;
     std::vector<Field> evaluate(const Formula& formula) const;
     /// Computes step-invariants by a plan of plan_step_invariants().
     StepInvariants step_invariants(const StepPlan& once) const;
-    /// The present rates of all species.
+    /// Returns the present rates of all species.
     std::vector<Field> rates() const;
-    /// The starting values of all species, computed anew.
+    /// Computes the starting values of all species anew.
     std::vector<Field> starting_species() const;
 
     /// Estimates the stability of the rates for these values of the species.
@@ -56,8 +56,8 @@ public:
     /// Whether all cells are frozen, so that no step changes anything.
     bool is_frozen() const;
     StepInUse step_in_use() const;
-    /// Whether, in the present state, diffusion limits the step to far less than the reaction
-    /// would.
+    /// Whether, in the present state, diffusion limits steps to a far shorter length than the
+    /// reaction would.
     bool diffusion_limits() const;
 
 private:
@@ -72,7 +72,7 @@ private:
     const StepInvariants* invariants_;
 };
 
-/// Replaces the species of a state, and restores them in its destructor.
+/// Replaces the species of a state. The destructor restores them.
 class OtherSpecies {
 public:
     OtherSpecies(StageState& state, std::vector<Field> species);

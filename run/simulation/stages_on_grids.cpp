@@ -1,4 +1,5 @@
-// States are carried to the cells of the domain only when they are read there.
+// The state of a stage with its own cells is transferred to the cells of the domain only when it is
+// read there.
 #include "run/simulation/stages_on_grids.h"
 
 #include "run/simulation/finer_run.h"

@@ -1,5 +1,5 @@
-// Holds the states of all stages in the cells of the domain, which pictures and other stages read.
-// If a stage has its own, wider cells, also holds the state of the stage in those.
+// Holds the states of all stages in the cells of the domain. Pictures and other stages read these
+// states. If a stage has its own, wider cells, also holds the state of the stage in its own cells.
 #pragma once
 
 #include "run/simulation/other_cells.h"
@@ -23,8 +23,8 @@ public:
     StagesOnGrids(std::unique_ptr<Environment> domain, std::uint32_t stages_that_run);
 
     Environment& domain() { return *domain_; }
-    /// The present states of all stages in the cells of the domain. Pointers into the result are
-    /// valid until a state changes.
+    /// Returns the present states of all stages in the cells of the domain. Pointers into the
+    /// result are valid until a state changes.
     std::span<StageState> in_domain();
     StageView view(std::uint32_t stage) { return {*domain_, in_domain(), stage}; }
 
@@ -35,9 +35,9 @@ public:
     StageView own_view(std::uint32_t stage) { return {environment(stage), states(stage), stage}; }
     bool has_own_cells(std::uint32_t stage) const { return coarser_.contains(stage); }
 
-    /// Must be called just before or after each change of a stage's state.
+    /// Must be called immediately before or after each change of a stage's state.
     void touch(std::uint32_t stage);
-    /// Carries the present states of the stages before this stage to its own cells.
+    /// Transfers the present states of the stages before this stage to this stage's own cells.
     void look_back(std::uint32_t stage);
     /// Takes the states of all stages from a run of the same script in undivided cells.
     void take_divided(StagesOnGrids& run);
@@ -46,7 +46,7 @@ private:
     std::unique_ptr<Environment> domain_;
     std::vector<StageState> states_;
     std::map<std::uint32_t, StagesInOtherCells> coarser_;
-    std::set<std::uint32_t> ahead_;  ///< Stages whose state in `states_` is outdated.
+    std::set<std::uint32_t> ahead_;  ///< The stages whose state in `states_` is outdated.
 };
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
-// A front is where values cross the middle of their range. Each is examined with four cells in a
-// row, along every axis.
+// A front is where values cross the middle of their range. Each front is examined by four cells in
+// a row, along every axis.
 #include "run/simulation/thin_fronts.h"
 
 #include <array>
@@ -9,11 +9,12 @@
 namespace cascade {
 namespace {
 
-/// A front between two adjacent cells is thinner than a cell under two conditions. The values of
-/// these cells differ by at least the first fraction of the range. Each of the values differs by at
-/// most the second fraction from the value of the next cell away from the front.
+/// A front between two adjacent cells is thinner than a cell if two conditions hold. The values of
+/// these cells differ by at least `least_jump_of_front` times the range. Each of the values differs
+/// by at most `most_beside` times the range from the value of the next cell in the direction away
+/// from the front.
 constexpr double least_jump_of_front = 0.8, most_beside = 0.1;
-/// The fraction of all fronts that must be thin.
+/// If at least this fraction of all fronts is thin, almost all fronts count as thin.
 constexpr double mostly_thin = 0.9;
 
 class FrontSearch {

@@ -13,7 +13,8 @@ struct Fronts {
     bool are_thin() const;  ///< Whether almost all fronts are thin.
 };
 
-/// The fronts of a species with this spread. `rates` give their speed, and may be null.
+/// Finds the fronts of a species whose values have the spread `spread`. `rates` are used for the
+/// speed of fronts, and may be null.
 Fronts fronts_of(const Field& values, const Field* rates, const Spread& spread);
 
 }  // namespace cascade

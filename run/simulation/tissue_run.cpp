@@ -24,8 +24,8 @@ namespace cascade {
 
 namespace {
 
-/// A rate as scripts name it, and its formula. A component of a position or frame has the name and
-/// the formula of the whole vector.
+/// A rate as scripts name it, and its formula. If the rate belongs to a component of a position or
+/// frame, it has the name and the formula of the whole vector.
 struct NamedRate {
     std::string_view name;
     const Formula* formula = nullptr;
@@ -38,7 +38,7 @@ NamedRate rate_of(const System& system, ItemId item) {
     return {"turn", &system.definitions[rules.spin].formula};
 }
 
-/// The terms of a sum, in their order, without their signs.
+/// Returns the terms of a sum in their order, without their signs.
 std::vector<Formula> terms_of(const Formula& sum) {
     std::vector<Formula> terms;
     std::vector<NodeId> open{NodeId(sum.nodes.size() - 1)};
@@ -65,8 +65,8 @@ std::optional<std::size_t> find_cell(const Tissue& tissue, std::uint32_t number)
     return std::nullopt;
 }
 
-/// The absolute value of a number, or the length of a vector, in a cell. Infinity if it is not
-/// finite.
+/// Returns the absolute value of a number, or the length of a vector, in a cell. Returns infinity
+/// if this is not finite.
 double size_of(const Formula& term, const StageView& view, std::size_t cell) {
     std::vector<Formula> parts;
     if (term.nodes.back().type == ValueType::vector) {
@@ -86,8 +86,8 @@ double size_of(const Formula& term, const StageView& view, std::size_t cell) {
 
 /// Names the term with the largest magnitude in a species' rate, at the present state of the cell
 /// with this number: "the largest term of p' is …, 3.2e+09". A term that is not finite counts as
-/// the largest. Empty if the rate has only one term, if the cell is not alive, or if all terms are
-/// 0.
+/// the largest. Returns an empty string if the rate has only one term, if the cell is not alive, or
+/// if all terms are 0.
 std::string largest_term(const StageView& view, SpeciesId species, std::uint32_t number) {
     const Tissue& tissue = *view.state().tissue();
     const System& system = view.system();
@@ -121,20 +121,21 @@ TissueSpecies species_of(const TissueStage& stage) {
     TissueSpecies species;
     species.place = stage.species_of(stage.rules().place).index();
     species.radius = stage.species_of(stage.rules().radius).index();
-    // If p' has no terms, its rate is a constant.
+    // If p' has no terms, its rate is a single number.
     const Formula& rate = stage.system().rates[stage.rules().place];
     species.crawls = rate.nodes.size() != 1 || !rate.nodes.back().is<double>();
     species.restless = {stage.species_of(stage.rules().age).index()};
     return species;
 }
 
-/// A species in words, because scripts have no names for the components of positions and frames.
+/// Returns the words for a species. Scripts have no names for the components of positions and
+/// frames.
 std::string name_of(const System& system, ItemId item) {
     if (!system.cells->has_component(item)) return std::string(system.item_name(item));
     return item < system.cells->frame ? "the place" : "the axes";
 }
 
-/// A remark on a tissue in which as many cells are born as die.
+/// Returns a remark on a tissue in which as many cells are born as die.
 std::string describe(const Turnover& turnover, const Stage& stage) {
     return fmt::format(
         "stage '{}' divides and dies without end: {} births and {} deaths from t = {:.4g} to "
@@ -211,8 +212,8 @@ TissueSchedule TissueRun::schedule(const Keeping& keeping) {
     return schedule;
 }
 
-/// Warns, only once, that a stage has stopped growing while the condition of its `until` is still
-/// false.
+/// Warns, but only once, that a stage has stopped growing although the condition of its `until` is
+/// still false.
 void TissueRun::warn_of_waiting(const Tissue& tissue) {
     constexpr double times_of_growth = 4;
     constexpr std::int64_t fewest_steps = 1000;
@@ -258,7 +259,7 @@ Result<StageEnd> TissueRun::advance(std::int64_t last_step, RunControl& control,
                         stage.name));
     }
     can_go_on_ = false;
-    // Without an interval, frames are drawn at marks.
+    // If the stage has no interval, frames are drawn at marks.
     const auto marks = [&] {
         return marks_reached(state_.t,
                              stage.time.duration.value_or(std::numeric_limits<double>::infinity()),

@@ -49,12 +49,12 @@ private:
     bool can_go_on_ = true;
     /// Whether the run has warned that `until` may never become true.
     bool is_waiting_ = false;
-    /// Whether all cells are neighbours of each other. Set to false after a warning about it.
+    /// Whether all cells are neighbours of each other and the user has not been warned of it yet.
     bool reaches_all_ = false;
 };
 
 /// Explains the failure of a tissue in a step, counted from 1, in the words of its script. The view
-/// must show the cells before that step.
+/// must show the cells as they were before that step.
 Failure explain(const TissueFailure& failure, const StageView& view, std::int64_t step);
 
 }  // namespace cascade

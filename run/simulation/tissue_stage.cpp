@@ -1,5 +1,5 @@
-// Cells first get their positions. All other values are computed from these and from earlier
-// stages.
+// Cells get their positions first. All other values are computed from the positions and from
+// earlier stages.
 #include "run/simulation/tissue_stage.h"
 
 #include "core/counted_cells.h"
@@ -28,8 +28,9 @@ namespace cascade {
 
 namespace {
 
-/// The surroundings of a stage's cells: the model or plane, a body grown here, or the surroundings
-/// of the previous stage of cells.
+/// Returns the surroundings of a stage's cells. If the stage has a body, grows it. Otherwise they
+/// are the model or plane for a stage with founders, and the surroundings of the previous stage of
+/// cells for any other stage.
 Result<std::shared_ptr<const TissueGround>> ground_of(const Environment& here,
                                                       std::span<const StageState> states,
                                                       std::uint32_t k,
@@ -60,7 +61,8 @@ Result<std::shared_ptr<const TissueGround>> ground_of(const Environment& here,
     return std::make_shared<TissueGround>(here.grid, *std::move(body));
 }
 
-/// A random number from 0 to 1 for each cell: the angle of a random direction in a plane.
+/// Draws a random number from 0 to 1 for a cell, which is the angle of a random direction in a
+/// plane, divided by 2π.
 double uniform_of(std::uint32_t seed, std::uint32_t stage, std::uint32_t number) {
     const Vector3d direction = random_direction({seed, stage, number, ~number}, {0, 0, 1});
     return std::atan2(direction.y, direction.x) / (2 * std::numbers::pi) + 0.5;
@@ -95,7 +97,7 @@ private:
             std::make_shared<Tissue>(blank(std::move(record)), here_.precision());
     }
 
-    /// A copy of a record with the same cells, all values 0, and no history.
+    /// Returns a copy of a record with the same cells, all values 0, and no history.
     TissueRecord blank(TissueRecord record) const {
         record.species.assign(view_.system().species_count(),
                               std::vector<double>(record.numbers.size()));
@@ -132,8 +134,8 @@ private:
             places = founders_at(*state_.ground()->surroundings(), wanted);
         }
         place(places);
-        // All positions are chosen first, and some of them are then left out by chance. So position
-        // k does not depend on which positions are left out.
+        // All positions are chosen before some of them are left out by chance. So position k does
+        // not depend on which positions are left out.
         const auto is_left_out = [&](double chance, std::size_t cell) {
             return !(uniform_of(here_.program->domain.seed, k_, tissue().numbers()[cell]) < chance);
         };
@@ -159,8 +161,8 @@ private:
         tissue().pad();
     }
 
-    /// Takes the cells of the previous stage in the same order, so that values can be read cell by
-    /// cell.
+    /// Takes over the cells of the previous stage in the same order, so that values can be read
+    /// cell by cell.
     Result<void> go_on() {
         const auto before = stage_of_cells_before(view_.program(), k_);
         CHECK(before && states_[*before].tissue(), "the checker knows which cells go on");
@@ -239,7 +241,7 @@ TissueStage tissue_stage(const Environment& environment, std::span<const StageSt
 }
 
 std::size_t most_cells_in_memory(const System& system, Precision precision) {
-    // Counts the planes of all registers, and the lists of neighbours.
+    // The bytes of a cell: the planes of all registers, and the lists of neighbours.
     constexpr std::uint64_t registers = 12, bytes_of_lists = 600;
     const std::uint64_t each =
         registers * system.species_count() * bytes_of(precision) + bytes_of_lists;

@@ -15,25 +15,26 @@
 
 namespace cascade {
 
-/// The stage in the form that the functions of run/tissue use. The states must outlive the result.
+/// Returns the stage in the form that the functions of run/tissue use. The states must outlive the
+/// result.
 TissueStage tissue_stage(const Environment& environment, std::span<const StageState> states,
                          std::uint32_t stage);
 
-/// The number of cells of a system that fit into memory.
+/// Returns the number of cells of a system that fit into memory.
 std::size_t most_cells_in_memory(const System& system, Precision precision);
 
-/// The largest distance d of any `over near(d)` in the stage's system and in `others`. 0 if there
-/// is none.
+/// Returns the largest distance d in any `over near(d)` of the stage's system and of `others`.
+/// Returns 0 if there is none.
 double widest_near(const StageView& view, std::span<const Formula* const> others = {});
 
 /// Evaluates a plan in the cells of a stage, at the present state. If the plan is not one of the
-/// system's own, `formulas` are its formulas. All values are NaN if there are too many neighbours,
-/// which a run of the stage would have refused.
+/// system's own plans, `formulas` are its formulas. All values are NaN if there are too many
+/// neighbours, but a run of the stage would have been refused in this case.
 std::vector<Field> evaluate_in_cells(const StageView& view, const StepPlan& plan,
                                      std::span<const Formula* const> formulas = {});
 
-/// The surface of the body on which the cells of a stage crawl, in the script's unit of length.
-/// Null if there is no body.
+/// Returns the surface of the body on which the cells of a stage crawl, in the script's unit of
+/// length. Returns null if there is no body.
 std::shared_ptr<const SurfaceMesh> body_under_cells(const StageState& state);
 
 /// Makes the cells of a stage from its founders or from the previous stage of cells, and computes
@@ -42,14 +43,15 @@ std::shared_ptr<const SurfaceMesh> body_under_cells(const StageState& state);
 Result<void> start_tissue(const Environment& environment, std::span<StageState> states,
                           std::uint32_t stage, const std::atomic<bool>& cancel);
 
-/// The values that the start of a started stage would give to its present cells at their present
-/// positions, by item and then in ascending order of the cells' numbers. An item has no values if
-/// the start does not compute it or if it is uniform. The whole result is empty if the start reads
-/// the cells of an earlier stage, because that stage has no values for cells born later.
+/// Returns the values that the start of a started stage would give to its present cells at their
+/// present positions, by item and then in ascending order of the cells' numbers. An item has no
+/// values if the start does not compute it or if it is uniform. The whole result is empty if the
+/// start reads the cells of an earlier stage, because that stage has no values for cells that were
+/// born later.
 std::vector<std::vector<double>> values_of_start(const StageView& view);
 
 /// Removes the cells in which `chosen` is not 0. Returns the number of remaining cells. If all
-/// cells are chosen, returns 0 and removes none.
+/// cells are chosen, removes no cell and returns 0.
 std::size_t remove_cells(Tissue& tissue, const Field& chosen);
 
 }  // namespace cascade

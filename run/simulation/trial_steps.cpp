@@ -1,4 +1,4 @@
-// Steps are taken on copies of the species.
+// Trial steps change only copies of the species.
 #include "run/simulation/trial_steps.h"
 
 #include <limits>
@@ -8,7 +8,8 @@
 namespace cascade {
 namespace {
 
-/// Trial steps need a copy of the species. They are not taken if the copy would need more bytes.
+/// The largest number of bytes of a copy of the species. Trial steps need such a copy, so they are
+/// not taken if it would be larger.
 constexpr std::int64_t most_copied_bytes = std::int64_t{64} << 20;
 
 }  // namespace
@@ -33,7 +34,7 @@ bool take_trial_steps(const EndedStage& ended, StageTimer& timer, std::int64_t c
     schedule.ends = {};
     schedule.most_kept_bytes = 0;
     schedule.threads = ended.view.environment().tools.threads;
-    // If the stage has a duration, its last step may have been shorter.
+    // If the stage has a duration, its last step may have been shorter than `speed`.
     const double speed = state.numbers[ended.view.system().speed_item()];
     if (schedule.time.clock.step > 0) schedule.time.clock.set_step(state.steps, speed);
 

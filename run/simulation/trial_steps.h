@@ -16,12 +16,12 @@ struct EndedStage {
     StageTimer& timer;
 };
 
-/// Limits of the number of trial steps. The number is also at most a quarter of the steps taken
-/// before.
+/// The largest and the smallest number of trial steps. The number is also at most a quarter of the
+/// number of steps that the stage has taken.
 inline constexpr std::int64_t most_trial_steps = 8, least_trial_steps = 4;
 
-/// Whether the species can be copied and the stage has taken so many steps that a few more cost
-/// little.
+/// Whether the species can be copied, and whether the stage has taken so many steps that a few more
+/// cost little in comparison.
 bool allows_trial_steps(const EndedStage& ended);
 
 /// Takes `count` steps with `timer`, and calls `observe` before the first step and after each step.

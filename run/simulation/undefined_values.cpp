@@ -1,5 +1,5 @@
-// For each part of a formula that may lose a NaN, evaluates a second formula that is true where a
-// NaN is lost.
+// For each part of a formula in which a NaN may be lost, evaluates a second formula that is true
+// where a NaN is lost.
 #include "run/simulation/undefined_values.h"
 
 #include "run/domain/field_values.h"
@@ -15,8 +15,8 @@ namespace cascade {
 
 namespace {
 
-/// A picture with a smaller deviation has the same grey in all pixels. If only one of 2²⁶ pixels
-/// differs by one of 256 grey levels, the deviation is larger than this.
+/// If the deviation of a picture is smaller than this, all its pixels have the same grey. The
+/// deviation is larger even if only one of 2²⁶ pixels differs by one of 256 grey levels.
 constexpr double one_level = 1e-7;
 
 /// Returns the first cell of the domain for which `is_found(value)` is true.
@@ -35,7 +35,8 @@ std::optional<CellPlace> first_cell(const Field& field, const Mask* counted, Tes
     });
 }
 
-/// Whether a formula consists of numbers alone. The checker has already reported such formulas.
+/// Whether a formula contains only numbers and calls of functions. The checker has already reported
+/// such formulas.
 bool is_constant(const Formula& formula) {
     return std::all_of(formula.nodes.begin(), formula.nodes.end(),
                        [](const Node& node) { return node.is<double>() || node.is<Call>(); });
@@ -47,7 +48,7 @@ std::string not_finite_words(double value) {
 
 constexpr const char* for_comparisons = "comparisons treat it as false";
 
-/// The formulas that are evaluated in each step.
+/// Returns the parts to watch in formulas that are evaluated in each step.
 std::vector<UndefinedWatch> watched_in_steps(const System& system) {
     LostNumbers lost(system);
     std::vector<UndefinedWatch> watched;
@@ -67,7 +68,7 @@ std::vector<UndefinedWatch> watched_in_steps(const System& system) {
     return watched;
 }
 
-/// The formulas that are evaluated once, at the start of the stage.
+/// Returns the parts to watch in formulas that are evaluated once, at the start of the stage.
 std::vector<UndefinedWatch> watched_at_start(const Stage& stage, const System& system) {
     LostNumbers lost(system);
     std::vector<UndefinedWatch> watched;
@@ -93,7 +94,7 @@ std::vector<UndefinedWatch> watched_in_until(const Stage& stage, const System& s
     return watched;
 }
 
-/// Warns of the first part that is NaN now. Returns false if there is none.
+/// Warns of the first part that is NaN at present. Returns false if no part is NaN.
 bool warn_of_lost(const StageView& view, std::span<const UndefinedWatch> watched,
                   const RunControl& control) {
     if (watched.empty()) return false;
@@ -105,7 +106,7 @@ bool warn_of_lost(const StageView& view, std::span<const UndefinedWatch> watched
         const auto place =
             first_cell(found[n], here.counted(), [](double value) { return value > 0; });
         if (!place) continue;
-        // An aggregate is uniform, so the message names no cell.
+        // An aggregate has the same value in all cells, so the message names no cell.
         const std::string where = is_same_everywhere(found[n])
                                       ? ""
                                       : " at " + here.place_in_words(place->column, place->row);

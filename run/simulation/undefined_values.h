@@ -15,8 +15,8 @@ namespace cascade {
 
 /// A part of a formula that may become NaN without notice.
 struct UndefinedWatch {
-    std::string where;   ///< The place of the part in the script, in words.
-    const char* effect;  ///< The effect of a NaN there, in words.
+    std::string where;   ///< Where the part is in the script, in words.
+    const char* effect;  ///< What a NaN there causes, in words.
     LostNumber number;
 };
 
@@ -24,8 +24,8 @@ struct UndefinedWatch {
 /// grid gives the same warnings.
 class UndefinedValues {
 public:
-    /// Must be called before the first step of a stage and at its end. Both together give at most
-    /// one warning.
+    /// look_at_start() must be called before the first step of a stage, and look_at_end() at the
+    /// stage's end. Both together give at most one warning.
     void look_at_start(const StageView& view, const RunControl& control);
     void look_at_end(const StageView& view, const RunControl& control);
     /// Must be called whenever `until` is evaluated.

@@ -1,5 +1,6 @@
 // Compares bounds of eigenvalues with the stability interval of the solver. For
-// Runge-Kutta-Legendre, chooses the number of stages that gives the longest time per stage.
+// Runge-Kutta-Legendre, chooses the number of stages with which a step is longest in relation to
+// its number of stages.
 #include "run/stage/automatic_speed.h"
 
 #include "lang/program/program.h"
@@ -28,7 +29,7 @@ std::int64_t choose_every(Solver solver, bool by_rule) {
 }
 
 std::uint32_t choose_stages(Solver solver, const RateBounds& bounds, double step) {
-    // Explicit Euler is stable for steps of up to 2 / bound.
+    // Explicit Euler is stable for steps of at most 2 / bound.
     return stages_for(solver, step * bounds.whole / 2 / step_safety);
 }
 

@@ -16,7 +16,7 @@
 namespace cascade {
 namespace {
 
-/// The values of a plan with a single result, on a line of cells.
+/// Evaluates a plan with a single result on a line of cells.
 std::vector<double> values_on_line(const StepPlan& plan, const BindingContext& context,
                                    std::int64_t cells) {
     const std::unique_ptr<Backend> interpreter = make_interpreter();
@@ -52,7 +52,7 @@ std::array<Field, lag_part_count> parts_of(const std::vector<Lag>& lags, double 
     return parts;
 }
 
-/// The values of files that a plan on the line of lags reads.
+/// Reads the values of files that a plan on the line of lags needs.
 InputFiles files_at_lags(const StepPlan& plan, const BindingContext& context, std::int64_t lags) {
     InputFiles files;
     for (const Pass& pass : plan.passes) {

@@ -6,9 +6,9 @@
 
 namespace cascade {
 
-/// Computes the weights of a convolution from the present parameters, each multiplied by the
-/// length, area or volume of a cell. A reach of NaN or below 0 counts as 0. There are at most
-/// most_lags weights, because a stage with more is refused at its start.
+/// Computes the weights of a convolution from the present parameters. Each weight is multiplied by
+/// the length, area or volume of a cell. A reach of NaN or below 0 counts as 0. There are at most
+/// most_lags weights, because a stage with more weights is refused at its start.
 WeightedLags weights_of(const Convolution& convolution, const BindingContext& context);
 
 }  // namespace cascade

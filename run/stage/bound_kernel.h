@@ -20,24 +20,26 @@
 
 namespace cascade {
 
-/// A step-invariant value (plan_step_invariants), which is computed once.
+/// A value that is the same in all steps (plan_step_invariants), so that it is computed only once.
 struct StepInvariant {
     Field plane;               ///< Empty if the value is uniform.
-    double number = 0;         ///< The value if it is uniform.
-    Boundaries boundary = {};  ///< The rules that fill the halo of the plane.
+    double number = 0;         ///< The value, if it is uniform.
+    Boundaries boundary = {};  ///< The boundary that fills the halo of the plane.
 };
 using StepInvariants = IdVector<StepInvariantId, StepInvariant>;
 
-/// The data of a stage of crawling cells, which replace the planes and links of a model.
+/// The data of a stage of crawling cells. They replace the planes and links of a model.
 struct TissueBinding {
     std::int64_t count = 0;  ///< The number of cells, without the unused positions of the last row.
     const Links* links = nullptr;  ///< The present neighbours of the cells.
-    /// The plane of ModelPlane::number. It contains the cells' numbers, in order of birth.
+    /// The plane for ModelPlane::number. It contains the cells' numbers, which are in order of
+    /// birth.
     const Field* numbers = nullptr;
-    /// The plane of ModelPlane::area. It contains 1 for each cell, because all cells have the same
+    /// The plane for ModelPlane::area. It contains 1 for each cell, because all cells have the same
     /// weight.
     const Field* ones = nullptr;
-    /// Computes the values of the domain's planes at the cells: one result for each of `sensed`.
+    /// Computes the values of the domain's planes at the cells: a result for each element of
+    /// `sensed`.
     KernelPointer sense;
     std::vector<PlaneSource> sensed;
     /// The items that the kernel `sense` reads as a cell's position.
@@ -48,46 +50,50 @@ struct TissueBinding {
 struct BindingContext {
     std::span<const StageState> states;
     const InputFiles& files;
-    std::int64_t steps = 0;  ///< Complete steps of the stage to which the kernel belongs.
+    std::int64_t steps = 0;  ///< Complete steps of the stage to which the kernels belong.
     Grid grid;
     Precision precision = Precision::single;
     double t = 0;  ///< The stage's time.
-    /// Indexed by MetricPlane. Empty if the domain has no surface.
+    /// The planes of the metric, indexed by MetricPlane. Empty if the domain has no surface.
     std::span<const Field> metric = {};
-    const ModelCells* model = nullptr;                ///< Null on grids.
-    const DomainMask* mask = nullptr;                 ///< Null if all cells belong to the domain.
-    SurfaceValues* surface_values = nullptr;          ///< Given on models.
-    const StepInvariants* step_invariants = nullptr;  ///< Given for the steps that read them.
-    const TissueBinding* tissue = nullptr;            ///< Given for stages of crawling cells.
-    /// Indexed by LagPart. Given for kernels of convolutions.
+    const ModelCells* model = nullptr;  ///< Null on grids.
+    const DomainMask* mask = nullptr;   ///< Null if there is no mask.
+    /// The values of a model that formulas read. Null on grids.
+    SurfaceValues* surface_values = nullptr;
+    /// The step-invariants. Null for steps that read none.
+    const StepInvariants* step_invariants = nullptr;
+    /// The data of a stage of crawling cells. Null for other stages.
+    const TissueBinding* tissue = nullptr;
+    /// The planes of lags, indexed by LagPart. Only given for kernels of convolutions.
     std::span<const Field> lags = {};
-    /// The unknown of the constraint that is being solved.
+    /// The unknown of the constraint that is being solved. Null if none is being solved.
     const Field* unknown = nullptr;
 };
 
-/// The plane of a slot. The source must have a plane and must not be a temporary.
+/// Returns the plane of a slot. The source of the slot must have a plane and must not be a
+/// temporary.
 const Field& plane_of(const PlaneSource& source, const BindingContext& context);
 
-/// Makes a kernel that can be run. If the function is empty, the problem only describes a step, and
-/// stages that the step reads need not have planes.
+/// Makes a kernel that can be run. May be empty if the problem only describes a step. Stages that
+/// the step reads then need not have planes.
 using Compile = std::function<KernelPointer(const CellKernel&)>;
 
-/// The passes of a plan with all slots bound. Species of `stage` are read from the old register.
-/// Results go to the new register, in order. The halo of planes that never change is filled here.
+/// Binds all slots of the passes of a plan. Species of `stage` are read from the old register.
+/// Results go to the new register, in order. Also fills the halo of planes that never change.
 StepProblem bind_plan(const StepPlan& plan, const Compile& compile, const BindingContext& context,
                       const System& system, std::uint32_t stage);
 
-/// The passes of all sweeps of a scheme. `plans` are the plans of the scheme's forms (plan_sweep).
-/// The passes of `before`, if any, run first and write only temporaries.
+/// Binds the passes of all sweeps of a scheme. `plans` are the plans of the scheme's forms
+/// (plan_sweep). The passes of `before`, if it has any, run first and write only temporaries.
 StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
                         const StepPlan& before, const Compile& compile,
                         const BindingContext& context, const System& system, std::uint32_t stage);
 
-/// The passes of a plan outside of the steps of a stage. It reads no registers, and writes its
-/// results to the new register.
+/// Binds the passes of a plan that is not part of the steps of a stage. The plan reads no
+/// registers, and writes its results to the new register.
 StepProblem bind_plan(const StepPlan& plan, const Compile& compile, const BindingContext& context);
 
-/// The name of species number `species`.
+/// Returns the name of species number `species`.
 std::string species_name(const System& system, std::size_t species);
 
 }  // namespace cascade

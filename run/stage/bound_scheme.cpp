@@ -7,9 +7,9 @@ namespace cascade {
 
 namespace {
 
-/// The registers at which rates are evaluated, and which therefore need a halo: the registers of
+/// Marks the registers at which rates are evaluated, because these need a halo: the registers of
 /// stages, the old step, and the new step, which becomes the old one. Stored rates and errors are
-/// only read in the same cell.
+/// read only in the cell itself.
 IdVector<RegisterId, bool> halo_registers(const Scheme& scheme) {
     IdVector<RegisterId, bool> registers(scheme.registers, false);
     registers[old_register] = registers[new_register] = true;
@@ -17,8 +17,8 @@ IdVector<RegisterId, bool> halo_registers(const Scheme& scheme) {
     return registers;
 }
 
-/// Whether the rates at the end of a step are bit for bit the rates at the start of the next step.
-/// They are not if they read the number or the length of the step.
+/// Whether the rates at the end of a step are, bit for bit, the rates at the start of the next
+/// step. This is not so if rates read the number or the length of the step.
 bool rates_go_on(const StepPlan& plan) {
     for (const Pass& pass : plan.passes) {
         for (const UniformSource& source : pass.bound.uniforms) {
@@ -29,8 +29,8 @@ bool rates_go_on(const StepPlan& plan) {
     return true;
 }
 
-/// The moment for which the halo of a sweep's output is filled: the moment of the next sweep that
-/// reads this output. The new step is read when the next step begins.
+/// Returns, for each output of a sweep, the moment for which its halo is filled. This is the moment
+/// of the next sweep that reads the output. The new step is read when the next step begins.
 std::vector<double> moments_of_outputs(const Scheme& scheme, std::size_t number) {
     const std::span<const Sweep> later(scheme.sweeps.begin() + number + 1, scheme.sweeps.end());
     std::vector<double> moments;
@@ -75,7 +75,8 @@ StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
             if (binder.species_needs_halo()[k]) whole.species_needs_halo[k] = true;
         }
     };
-    // The first rates come first, because a step that already has them skips its first passes.
+    // If a step already has the rates at its start, it skips its first passes. So the sweep of
+    // these rates comes first, before the passes of `before`.
     const std::size_t needs_before = scheme.rate_registers ? 1 : 0;
     for (std::size_t n = 0; n < scheme.sweeps.size(); ++n) {
         if (n == needs_before && !before.passes.empty()) add(before, nullptr, nullptr, {});
@@ -94,7 +95,7 @@ StepProblem bind_scheme(const Scheme& scheme, std::span<const StepPlan> plans,
         if (sweeps[n] != nullptr) part.passes.front().filter = sweeps[n]->filter;
         for (StepProblem::Pass& pass : part.passes) whole.passes.push_back(std::move(pass));
     }
-    // Links with further weights also serve plans that do not read these.
+    // Links with additional weights can also be used by plans that do not read these weights.
     whole.links = links_of(context, all);
     if (scheme.rate_registers) {
         const StepPlan& first = plans[scheme.sweeps[0].form];

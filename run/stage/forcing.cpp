@@ -1,5 +1,5 @@
-// Samples the parts that depend on time alone. Finds their jumps, and for each sample the time
-// during which they stay close to it.
+// Samples the parts that depend on time alone. Finds their jumps and, for each sample, how long
+// they stay near its value.
 #include "run/stage/forcing.h"
 
 #include <algorithm>
@@ -11,15 +11,15 @@ namespace cascade {
 
 namespace {
 
-/// The largest fraction of its range by which a part may change in a step. So a step ends within
-/// each pulse, and the error estimate then notices the pulse.
+/// In a step, a part changes by at most this fraction of its range. So a step ends within each
+/// pulse, and the error estimate then notices the pulse.
 constexpr double most_of_range = 0.3;
-/// The longest step, in intervals.
+/// The longest step, as a number of intervals.
 constexpr std::size_t farthest = Forcing::intervals / 4;
 /// A change within an interval may be a jump if it is at least the fraction `least_jump` of the
 /// range, and more than `steeper` times as large as the changes of the adjacent intervals.
 constexpr double least_jump = 1e-3, steeper = 4;
-/// Steps end before a jump by this fraction of the duration, which is more than rounding errors.
+/// Steps end this fraction of the duration before a jump, which is more than rounding errors.
 constexpr double before_jump = 1e-13;
 
 }  // namespace
@@ -56,7 +56,7 @@ void Forcing::add_motion(std::span<const double> changes) {
         const std::size_t k = n * changes.size() / intervals;
         return part * std::max(changes[k], changes[std::min(k + 1, changes.size() - 1)]);
     };
-    double sum = 0;  // The sum of the intervals from `n` to `end`.
+    double sum = 0;  // The sum of the changes in the intervals from `n` to `end` − 1.
     for (std::size_t n = 0, end = 0; n < intervals; ++n) {
         if (end <= n) {
             end = n;
@@ -118,7 +118,8 @@ std::vector<Jump> find_jumps(const std::vector<double>& values, double duration,
         if (!(whole > std::max(least, steeper * beside))) continue;
         Jump jump{time_of(n), time_of(n + 1)};
         double a = values[n], b = values[n + 1];
-        // A steep change without a jump becomes small when its ends approach each other.
+        // If the change is steep but no jump, the values at both ends of the interval become nearly
+        // equal when the ends approach each other.
         while (2 * std::abs(b - a) > whole) {
             const double middle = std::midpoint(jump.before, jump.after);
             if (!(middle > jump.before && middle < jump.after)) break;

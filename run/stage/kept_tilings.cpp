@@ -1,5 +1,5 @@
-// A tiling is stored as one line of numbers. It is not searched again once two searches in a row
-// have found it.
+// A tiling is stored as one line of numbers. Once two searches in a row have found the same tiling,
+// there is no further search.
 #include "run/stage/kept_tilings.h"
 
 #include "core/cache_sizes.h"

@@ -1,5 +1,5 @@
-// Stores the fastest tilings that runs have found, for later stages of this process and, in the
-// folder of compiled kernels, for later processes.
+// Stores the fastest tilings that runs have found. They are stored in memory for later stages of
+// this process, and in the folder of compiled kernels for later processes.
 //
 // The key of a tiling contains everything that affects its speed: this build, the processor, its
 // caches, the kernels of the steps, the grid and the number of threads. No result depends on
@@ -18,23 +18,23 @@ namespace cascade {
 
 struct FoundTiling {
     Tiling tiling;
-    /// Whether two searches in a row have found this tiling. If so, it is not searched again.
+    /// Whether two searches in a row have found this tiling. If so, there is no further search.
     bool is_sure = false;
     friend bool operator==(const FoundTiling&, const FoundTiling&) = default;
 };
 
 class KeptTilings {
 public:
-    /// `code` identifies the build and the processor. Tilings are stored on disk only if both
-    /// `folder` and `code` are not empty.
+    /// `code` identifies the build and the processor. Tilings are stored on disk only if neither
+    /// `folder` nor `code` is empty.
     KeptTilings(const std::filesystem::path& folder, std::string code);
 
-    /// The tiling that two searches in a row have found, in this process or in others. Empty if
-    /// there is none.
+    /// Returns the tiling that two searches in a row have found, in this process or in others.
+    /// Returns an empty optional if there is no such tiling.
     std::optional<Tiling> find(const std::string& key);
     void keep(const std::string& key, const Tiling& tiling);
 
-    /// The part that all keys share: build, processor and caches.
+    /// The part that all keys share, which identifies the build, the processor and its caches.
     const std::string& machine() const { return machine_; }
 
 private:
@@ -45,7 +45,8 @@ private:
     std::map<std::string, FoundTiling> known_;
 };
 
-/// Converts a found tiling to a line of text, and back. Any other text gives an empty optional.
+/// text_of() converts a found tiling to a line of text, and found_tiling_of() converts it back. For
+/// any other text, the result is an empty optional.
 std::string text_of(const FoundTiling& found);
 std::optional<FoundTiling> found_tiling_of(const std::string& text);
 

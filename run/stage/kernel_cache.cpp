@@ -11,7 +11,7 @@ std::filesystem::path usual_kernel_cache() {
     const auto variable = [](const char* name) { return std::getenv(name); };
     if (const char* folder = variable("CASCADE_KERNEL_CACHE")) return folder;
     const auto in_folder = [](const std::filesystem::path& folder) {
-        // The specification says that a relative path is ignored.
+        // The specification says that relative paths are ignored.
         const std::filesystem::path kernels = folder / "cascade" / "kernels";
         return folder.is_absolute() && may_keep_files_in(kernels) ? kernels
                                                                   : std::filesystem::path();

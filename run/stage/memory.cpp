@@ -29,9 +29,9 @@ std::string describe_sides(const Grid& grid) {
 
 namespace {
 
-/// The planes that operations between the passes of a plan need. A constraint needs the vectors of
-/// its solver and the temporaries of its plans. A convolution needs the waves of its operand and of
-/// its kernel, on a grid that is at most twice as wide along each axis.
+/// Returns the number of planes that operations between the passes of a plan need. A constraint
+/// needs the vectors of its solver and the temporaries of its plans. A convolution needs the waves
+/// of its operand and of its kernel, on a grid that is at most twice as wide along each axis.
 std::uint64_t planes_between_passes(const StepPlan& plan, const Grid& grid) {
     std::uint64_t planes = 0;
     for (const Pass& pass : plan.passes) {
@@ -50,8 +50,8 @@ std::uint64_t planes_between_passes(const StepPlan& plan, const Grid& grid) {
     return planes;
 }
 
-/// Planes that exist while a stage runs: temporaries of passes, all registers except the old step,
-/// and the copy of the species for replays.
+/// Returns the number of planes that exist only while a stage runs: temporaries of passes, all
+/// registers except the old step, and the copy of the species for replays.
 std::uint64_t planes_while_running(const Program& program, std::uint32_t k, StagePlans& plans,
                                    const Grid& grid) {
     const Stage& stage = program.stages[k];
@@ -67,7 +67,7 @@ std::uint64_t planes_while_running(const Program& program, std::uint32_t k, Stag
         temporaries = std::max(temporaries, plan.temporaries);
         between_passes += planes_between_passes(plan, grid);
     }
-    // Step-invariants stay in memory. Computing them may need more temporaries than a step does.
+    // Step-invariants stay in memory. Their computation may need more temporaries than a step does.
     const StepPlan& step_invariants = plans.step_invariants(k);
     temporaries = std::max(temporaries, step_invariants.temporaries) + step_invariants.result_count;
     Schedule schedule;
@@ -85,8 +85,8 @@ std::uint64_t planes_while_running(const Program& program, std::uint32_t k, Stag
     return planes;
 }
 
-/// The number of elements of a plane, together with the planes of the coarser grids that exist at
-/// the same time: the grid that runs and the previous one.
+/// Returns the number of elements of a plane. Adds the elements of the planes of coarser grids that
+/// exist at the same time, which belong to the grid that runs and to the previous grid.
 std::int64_t plane_size(const Program& program, const Grid& grid) {
     std::int64_t size = PlaneLayout(grid).size(), coarse = 0;
     for (const Stage& stage : program.stages) {
@@ -99,8 +99,9 @@ std::int64_t plane_size(const Program& program, const Grid& grid) {
     return size + coarse;
 }
 
-/// Planes that are needed temporarily to choose steps and stages: for computing bounds, or for
-/// estimating an eigenvalue (two planes for each species and four vectors in double precision).
+/// Returns the number of planes that are needed for a short time to choose steps and stages: for
+/// computing bounds, or for estimating an eigenvalue (two planes for each species and four vectors
+/// in double precision).
 std::uint64_t planes_to_choose(const Program& program, std::uint32_t stage,
                                const ModelFacts* model) {
     if (program.domain.model && model == nullptr) return 0;
@@ -123,7 +124,7 @@ double memory_of(const Program& program) {
 
 double memory_of(const Program& program, StagePlans& plans, const ModelFacts* model) {
     const Grid& grid = model ? model->grid : program.domain.grid;
-    // Every species, its copy for `until: steady`, and every varying parameter of all stages are
+    // In all stages, every species, its copy for `until: steady` and every varying parameter are
     // counted, because later stages and pictures may read any of them.
     std::uint64_t planes = 4;
     for (const Stage& stage : program.stages) {
@@ -145,7 +146,7 @@ double memory_of(const Program& program, StagePlans& plans, const ModelFacts* mo
     }
     planes += while_running;
     if (program.domain.surface) planes += metric_plane_count;
-    if (program.domain.mask) planes += 2;  // One plane of words and one of bytes.
+    if (program.domain.mask) planes += 2;  // A mask needs a plane of words and a plane of bytes.
     return static_cast<double>(planes) * static_cast<double>(plane_size(program, grid)) *
            static_cast<double>(bytes_of(program.domain.precision));
 }

@@ -1,5 +1,5 @@
-// Compares the step with its stability limits at the start and before the failure. Then advises
-// shorter steps, or checking the formulas.
+// Compares the step with its stability limits at the start and before the failure. Then advises the
+// user to choose shorter steps or to check the formulas.
 #include "run/stage/not_finite.h"
 
 #include "core/counted_cells.h"
@@ -14,12 +14,12 @@ namespace cascade {
 
 namespace {
 
-/// A value that has reached this magnitude counts as growing without bound.
+/// A value of at least this magnitude counts as growing without bound.
 constexpr double most_that_is_sane = 1e4;
 
-/// The smaller of the stability limits at the start and before the failure. Empty if neither state
-/// has a limit. A state that has grown far beyond the starting values is ignored, because it looks
-/// stiff with any reaction.
+/// Returns the smaller of the stability limits at the start and before the failure, or an empty
+/// optional if neither state has a limit. If the state before the failure has grown far beyond the
+/// starting values, it is ignored, because any reaction looks stiff in such a state.
 std::optional<double> limit(const NotFiniteReport& report) {
     const auto start = longest_step(report.estimate_at_start, report.use);
     const bool is_spoiled =
@@ -30,8 +30,8 @@ std::optional<double> limit(const NotFiniteReport& report) {
     return start ? start : before;
 }
 
-/// Advice for values that grew without bound although steps were stable. Either the equations make
-/// them grow, or steps are too long to follow the equations.
+/// Returns advice for values that grew without bound although steps were stable. Either the
+/// equations make the values grow, or steps are too long to follow the equations.
 std::string advice_for_growth(const StepInUse& use) {
     if (is_adaptive(use.solver)) return "the reaction itself grows without bound here";
     return "either the reaction itself grows without bound here, or the steps are too long; "

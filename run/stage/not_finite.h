@@ -1,4 +1,4 @@
-// Explains why a run has produced NaN or infinity, or will soon.
+// Explains why a run has produced NaN or infinity, or will soon produce them.
 #pragma once
 
 #include "core/result.h"
@@ -16,20 +16,20 @@ namespace cascade {
 struct NotFiniteReport {
     std::string stage, system, species;
     NotFinite found;
-    std::string place;  ///< Describes the cell.
+    std::string place;  ///< Describes the cell that has the value.
     StepInUse use;
     // The following two members are known only if a copy of the state before the failure exists.
     std::optional<double> largest_before;  ///< The largest absolute value before the failing step.
-    StabilityEstimate estimate_before;     ///< At the last successful check.
+    StabilityEstimate estimate_before;     ///< The estimate at the last successful check.
     double largest_at_start = 0;  ///< The largest absolute value of the stage's starting values.
-    StabilityEstimate estimate_at_start;  ///< At the stage's starting values.
+    StabilityEstimate estimate_at_start;  ///< The estimate at the stage's starting values.
 };
 
-/// The largest absolute value in all fields.
+/// Returns the largest absolute value in all fields.
 double largest_magnitude(std::span<const Field> species);
 
-/// Names the stage, species, cell and step. If the step is too long, also gives the largest stable
-/// speed.
+/// Makes a message that names the stage, species, cell and step. If the step is too long, the
+/// message also gives the largest stable speed.
 Failure describe(const NotFiniteReport& report);
 
 }  // namespace cascade

@@ -1,4 +1,5 @@
-// Binds constraints together with the passes that read them. Each constraint has its own binders.
+// Binds constraints together with the passes that read their solutions. Each constraint has its own
+// binders.
 #include "run/stage/plan_binder.h"
 
 #include "core/check.h"
@@ -13,8 +14,8 @@ namespace cascade {
 
 namespace {
 
-/// The areas of cells if they differ, as on a surface, or if some cells do not count. Otherwise
-/// null.
+/// Returns the areas of cells if they differ, as on a surface, or if some cells do not count.
+/// Otherwise returns null.
 std::shared_ptr<const Field> areas_of_cells(const BindingContext& context) {
     const Field* given = nullptr;
     if (!context.metric.empty()) given = &plane_of(MetricPlane::area, context);
@@ -70,7 +71,8 @@ void take_sides(StepProblem& problem, const BindingContext& context, const Syste
         problem.changing_sides = fields->changing_sides;
     }
     problem.sides_moment = {context.steps, context.t};
-    // The number of species comes from the system, because the planes may be lent to the steps.
+    // The number of species comes from the system. The state may have no planes, because they may
+    // be lent to the steps.
     problem.species_needs_halo.assign(system.species_count(), false);
 }
 
@@ -115,8 +117,8 @@ StepProblem PlanBinder::bind(const Compile& compile) {
     return std::move(problem_);
 }
 
-/// The temporary that contains the values that cells sense; nullopt for sources that are not
-/// sensed.
+/// Returns the temporary that contains the values that cells sense. Returns an empty optional if
+/// the source is not sensed.
 std::optional<TemporaryId> PlanBinder::sensed(const PlaneSource& source) const {
     if (!context_.tissue) return std::nullopt;
     const auto& all = context_.tissue->sensed;
@@ -172,7 +174,7 @@ StepProblem::Solve PlanBinder::bind_constraint(const Solve& solve, const Compile
         bound.rules = SpeciesId(state.species().size() + *solve.wall);
         bound.sides = state.sides()[bound.rules->index()];
     }
-    if (system_ == nullptr) bound.rules = {};  // Only a system has rules that change.
+    if (system_ == nullptr) bound.rules = {};  // Rules that change exist only if there is a system.
     bound.in_register = sweep_ != nullptr ? sweep_->inputs[0] : old_register;
     bound.read_at = sweep_ != nullptr ? sweep_->time : 0;
     std::vector<std::shared_ptr<const StepProblem>> problems;
@@ -196,8 +198,8 @@ StepProblem::Solve PlanBinder::bind_constraint(const Solve& solve, const Compile
     return bound;
 }
 
-/// The pass that computes the values that cells sense. It precedes all others, because positions
-/// change with every evaluation of the rates.
+/// Returns the pass that computes the values that cells sense. It comes before all other passes,
+/// because positions change with every evaluation of the rates.
 StepProblem::Pass PlanBinder::sense() {
     const TissueBinding& tissue = *context_.tissue;
     StepProblem::Pass pass;
@@ -233,7 +235,7 @@ PlanBinder::PlaneRef PlanBinder::bind_plane(const PlaneSource& source) const {
     return &plane_of(source, context_);
 }
 
-/// The rules at the sides of a constant plane that is read at neighbours.
+/// Returns the rules at the sides of a plane that does not change and is read at neighbours.
 SideRules PlanBinder::sides_of(const PlaneSource& source) const {
     if (const auto* const id = std::get_if<StepInvariantId>(&source)) {
         return (*context_.step_invariants)[*id].boundary;
@@ -336,7 +338,7 @@ StepProblem::Result PlanBinder::bind_result(const PassTarget& target) const {
         result.needs_halo = temporary_needs_halo_[*temporary];
         result.boundary = target.boundary;
         if (!target.wall) return result;
-        // This value is read at neighbours by a later pass of the same evaluation of the rates.
+        // A later pass of the same evaluation of the rates reads this value at neighbours.
         const std::size_t species = context_.states[stage_].species().size();
         result.rules = SpeciesId(species + *target.wall);
         result.read_at = sweep_ != nullptr ? sweep_->time : 0;
@@ -349,7 +351,8 @@ StepProblem::Result PlanBinder::bind_result(const PassTarget& target) const {
     }
     SpeciesPlane own{SpeciesId(number), new_register};
     if (form_ != nullptr) {
-        // Outputs come in order. Each has one result for every species that is written.
+        // Results are in the order of the outputs. Each output has one result for every species
+        // that is written.
         const std::size_t written =
             form_->species.empty() ? problem_.species_needs_halo.size() : form_->species.size();
         own.in_register = sweep_->outputs[number / written];

@@ -1,5 +1,5 @@
-// Resolves the slots of a plan's passes to registers, planes and numbers, and records which planes
-// need a halo and for which moment.
+// Resolves the slots of a plan's passes to registers, planes and numbers. Records which planes need
+// a halo and for which moments.
 #pragma once
 
 #include "run/stage/bound_kernel.h"
@@ -14,17 +14,18 @@
 
 namespace cascade {
 
-/// The number of cells over which means are taken; 0: all cells.
+/// Returns the number of cells over which means are taken. 0 stands for all cells.
 std::int64_t cells_inside(const BindingContext& context);
 
-/// The links of cells, with all weights that kernels of these plans read; null on grids.
+/// Returns the links of cells, with all weights that the kernels of these plans read. Returns null
+/// on grids.
 const Links* links_of(const BindingContext& context, std::span<const StepPlan* const> plans);
 
 /// Sets the rules at the sides for the steps of a stage. Marks no species as needing a halo.
 void take_sides(StepProblem& problem, const BindingContext& context, const System& system,
                 std::uint32_t stage);
 
-/// Binds one plan, once. All arguments must outlive the binder.
+/// Binds one plan. bind() may be called only once. All arguments must outlive the binder.
 class PlanBinder {
 public:
     PlanBinder(const StepPlan& plan, const BindingContext& context, const System* system,
@@ -33,10 +34,10 @@ public:
 
     /// Writes the results of the plan to the last temporaries of the problem.
     void keep_results() { keeps_results_ = true; }
-    /// For each species, whether it is read at neighbours. Other plans of the same step may set
-    /// further entries.
+    /// For each species, whether it is read at neighbours. May be extended by the entries that
+    /// other plans of the same step need.
     std::vector<bool>& species_needs_halo() { return problem_.species_needs_halo; }
-    /// By register of the scheme: whether a sweep reads it at neighbours.
+    /// Says for each register of the scheme whether a sweep reads it at neighbours.
     void set_halo_registers(const IdVector<RegisterId, bool>& registers) {
         halo_registers_ = registers;
     }
@@ -58,7 +59,7 @@ private:
         BindingContext context;
         std::shared_ptr<Field> unknown;
         std::shared_ptr<StepInvariants> constant;
-        /// One for each of the plans `whole`, `linear` and, if it exists, `parts`.
+        /// A binder for each of the plans `whole`, `linear` and, if it exists, `parts`.
         std::vector<PlanBinder> binders;
     };
     void add_constraint(const Solve& solve);
@@ -66,7 +67,7 @@ private:
     StepProblem::Pass sense();
     PlaneRef bind_plane(const PlaneSource& source) const;
 
-    /// The register from which rates read a species.
+    /// Returns the register from which rates read a species.
     RegisterId register_of(SpeciesId species) const {
         if (sweep_ == nullptr) return old_register;
         return species.index() < sweep_->renewed ? new_register : sweep_->inputs[0];
@@ -83,9 +84,10 @@ private:
     const BindingContext& context_;
     const System* system_;  ///< If null, no species is bound to a register.
     std::uint32_t stage_;
-    const SweepForm* form_;  ///< The form of the sweep; null for a plan outside of a scheme.
+    const SweepForm* form_;  ///< The form of the sweep. Null for a plan outside of a scheme.
     const Sweep* sweep_;
-    std::vector<double> read_at_;  ///< By output of the sweep: the moment at which rates read it.
+    /// For each output of the sweep, the moment at which rates read it.
+    std::vector<double> read_at_;
     bool senses_ = false;  ///< Whether passes read values that cells sense at their positions.
     bool keeps_results_ = false;
     std::map<const Solve*, std::unique_ptr<OfConstraint>> constraints_;

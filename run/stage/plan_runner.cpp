@@ -1,4 +1,5 @@
-// Binds the plan again before each run, because planes may have moved. Then runs its passes once.
+// Binds the plan again before each run, because planes may have moved in memory. Then runs its
+// passes once.
 #include "run/stage/plan_runner.h"
 
 #include <array>
@@ -16,7 +17,7 @@ std::vector<Field>& PlanRunner::run(const BindingContext& context, Team& team) {
         if (!known) known = compile_(kernel);
         return known;
     };
-    // Planes may have moved since the last run.
+    // Planes may have moved in memory since the last run.
     problem_ = bind_plan(plan_, make_once, context);
     if (!runner_) {
         runner_.emplace(problem_);

@@ -14,21 +14,22 @@
 namespace cascade {
 
 /// Runs a plan repeatedly. The first run makes the kernels and allocates the planes. Later runs
-/// reuse both, because making them would cost more than the computation.
+/// reuse them, because making them again would cost more than the computation.
 class PlanRunner {
 public:
     PlanRunner(StepPlan plan, Compile compile);
     PlanRunner(const PlanRunner&) = delete;
     PlanRunner& operator=(const PlanRunner&) = delete;
 
-    /// Computes the plan from the present values. The team shares the rows. Returns one field for
-    /// each result, which the next run overwrites. Grid and precision must be the same in all runs.
+    /// Computes the plan from the present values. The threads of the team share the rows. Returns
+    /// one field for each result, which the next run overwrites. Grid and precision must be the
+    /// same in all runs.
     std::vector<Field>& run(const BindingContext& context, Team& team);
 
 private:
     StepPlan plan_;
     Compile compile_;
-    /// For each kernel of the plan, the kernel that can be run.
+    /// Maps each kernel of the plan to the compiled kernel that can be run.
     std::map<const CellKernel*, KernelPointer> made_;
     StepProblem problem_;
     std::optional<PassRunner> runner_;

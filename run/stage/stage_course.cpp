@@ -1,4 +1,4 @@
-// Stores a limited number of moments, by dropping every other one when there are too many. Trends
+// Stores a limited number of moments. When there are too many, every second one is dropped. Trends
 // are judged by tenths of the stage's age.
 #include "run/stage/stage_course.h"
 
@@ -12,16 +12,16 @@ namespace cascade {
 
 namespace {
 
-/// At this number of moments, every other one is dropped.
+/// When there are this many moments, every second one is dropped.
 constexpr std::size_t most_moments = 40;
-/// With more cells than this, only some rows are read.
+/// If a plane has more cells than this, only some rows are read.
 constexpr std::int64_t most_cells_seen = 1 << 14;
 
 /// A pattern is growing if deviation and range of every species have risen in each of the last
-/// three tenths of the stage's age, and in the last tenth at least by this fraction. Such a pattern
-/// would become at least 1.5 times as strong if the stage ran for twice the time. Fronts that fill
-/// a plane and patterns that coarsen keep their range. Waves and pulses do not rise in all species
-/// for that long.
+/// three tenths of the stage's age, and if both have risen by at least this fraction in the last
+/// tenth. Such a pattern would become at least 1.5 times as strong if the stage ran for twice the
+/// time. Fronts that fill a plane and patterns that coarsen keep their range. Waves and pulses do
+/// not rise in all species for that long.
 constexpr double least_growth = 0.05;
 
 /// A pattern is fading if three conditions hold. The first condition: the deviation of each species
@@ -46,8 +46,8 @@ Spread spread_of_rows(const Field& field, const Mask* inside, std::int64_t every
     });
 }
 
-/// Spread::is_uniform() for every n-th row. Compares with the root mean square, which is faster to
-/// compute than the largest magnitude and never exceeds it.
+/// Does the same as Spread::is_uniform() for every n-th row. Compares with the root mean square,
+/// which is faster to compute than the largest magnitude and never exceeds it.
 bool is_uniform(const Field& field, const Mask* inside, std::int64_t every_row, double once) {
     if (every_row == 1) {
         const FieldMoments all = moments(field, inside);
@@ -141,7 +141,7 @@ double StageCourse::greatest_contrast() const {
     return greatest;
 }
 
-/// The moment nearest to this fraction of the present age.
+/// Returns the moment nearest to this fraction of the present age.
 const Moment& StageCourse::at_age(double part) const {
     const double age = part * last().age;
     return *std::min_element(moments_.begin(), moments_.end(),
@@ -160,7 +160,8 @@ double StageCourse::growth(std::size_t species) const {
 bool StageCourse::is_growing(std::size_t species) const {
     const std::array<const Moment*, 4> course = {&at_age(0.7), &at_age(0.8), &at_age(0.9), &last()};
     for (std::size_t k = 1; k < course.size(); ++k) {
-        // If the moments are too far apart, the time between them is unknown.
+        // If moments are too far apart, the same moment is nearest to two of these ages, and
+        // nothing is known of the time between them.
         if (course[k]->step <= course[k - 1]->step) return false;
         const Spread& before = course[k - 1]->species[species];
         const Spread& now = course[k]->species[species];

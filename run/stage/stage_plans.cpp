@@ -1,4 +1,4 @@
-// Stores plans by stage and by form of sweep.
+// Stores plans by their stages and forms of sweep.
 #include "run/stage/stage_plans.h"
 
 namespace cascade {

@@ -1,4 +1,4 @@
-// The plans of a program's stages. Each plan is made on first use and then stored.
+// The plans of a program's stages. Each plan is made when it is first used, and then stored.
 #pragma once
 
 #include "lang/lower/lower.h"
@@ -22,18 +22,19 @@ public:
           sweeps_(program.stages.size()) {}
 
     const PlanOptions& options() const { return options_; }
-    /// The plan of the starting values.
+    /// Returns the plan of the starting values.
     const StepPlan& start(std::uint32_t stage);
-    /// The plan of the step-invariants.
+    /// Returns the plan of the step-invariants.
     const StepPlan& step_invariants(std::uint32_t stage);
-    /// The plan of a sweep, that is, of one evaluation of the rates.
+    /// Returns the plan of a sweep. A sweep is one evaluation of the rates.
     const StepPlan& sweep(std::uint32_t stage, const SweepForm& form);
 
 private:
     const Program* program_;
     PlanOptions options_;
     std::vector<std::optional<StepPlan>> starts_, step_invariant_;
-    std::vector<std::deque<std::pair<SweepForm, StepPlan>>> sweeps_;  ///< By stage.
+    /// For each stage, the plans of sweeps and their forms.
+    std::vector<std::deque<std::pair<SweepForm, StepPlan>>> sweeps_;
 };
 
 }  // namespace cascade

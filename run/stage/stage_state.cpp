@@ -1,4 +1,4 @@
-// Gives each species its number among the planes that solvers step, and moves stages in time.
+// Numbers the species among the planes that solvers step, and moves stages in time.
 #include "run/stage/stage_state.h"
 
 #include "core/check.h"

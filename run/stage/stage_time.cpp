@@ -1,5 +1,5 @@
 // Builds the problem of a step for the number of stages in use. Chooses steps by stability bounds,
-// error estimates and the forcing.
+// by error estimates and by the changes that depend on time alone.
 #include "run/stage/stage_time.h"
 
 #include "lang/calculus/derivative.h"
@@ -15,28 +15,29 @@ namespace cascade {
 
 namespace {
 
-/// The duration assumed for a stage without a known one. Chosen steps are limited to a fraction of
-/// it.
+/// The duration that is assumed for a stage whose duration is unknown. Chosen steps are limited to
+/// a fraction of the duration.
 constexpr double usual_duration = 10000;
 constexpr double most_of_duration = 0.05, most_of_duration_without_bound = 0.001;
-/// The first step is this fraction of the longest stable step of Euler's method, because no error
-/// estimate precedes it.
+/// The first step is this fraction of the longest stable step of Euler's method. It is short
+/// because there is no error estimate before it.
 constexpr double part_of_first_step = 0.25;
-/// Chosen steps are not shorter than these fractions of the longest stable step of Euler's method
-/// and of the duration, because shorter steps would gain nothing.
+/// A chosen step is at least as long as the smaller of two lengths: the first fraction of the
+/// longest stable step of Euler's method, and the second fraction of the duration. Shorter steps
+/// would gain nothing.
 constexpr double least_part = 0.01, least_of_duration = 1e-6;
-/// Explicit steps cost little compared with the estimate of their error, so several steps are taken
-/// between two estimates. These are the largest numbers of such steps.
+/// Explicit steps cost little compared with an estimate of their error, so several steps are taken
+/// from one estimate to the next. These are the largest numbers of such steps.
 constexpr std::int64_t most_stretch = 64, most_stretch_with_jumps = 8;
-/// Errors are estimated at least this often during a stage, and more often if bounds or
-/// errors change.
+/// At least this many times during a stage, errors are estimated. They are estimated more often if
+/// bounds or errors change.
 constexpr double stretches_of_duration = 50;
 constexpr double same_bounds = 1.25, small_error = 0.5;
-/// The number of stages changes only if that saves this factor of time, because new temporaries are
-/// needed.
+/// The number of stages changes only if steps then cost less by this factor, because each new
+/// number of stages needs new temporaries.
 constexpr double worth_other_stages = 1.1;
-/// The part of a bound that counts as reaction if the real part is unknown. The rest of the bound
-/// counts as diffusion.
+/// The fraction of a bound that counts as reaction if the bound of the reaction is unknown. The
+/// rest of the bound counts as diffusion.
 constexpr double share_of_reaction = 0.02;
 
 }  // namespace
@@ -89,8 +90,8 @@ StageTimer::StageTimer(const Program& program, std::uint32_t stage, StageState& 
     state_.time.control.step = speed_;
     state_.time.stages = is_stabilised(stage_.time.solver) ? 3 : 0;
     // The edge of a source that moves can reach cells in which nothing else happens, and a source
-    // can begin where a species is 0. The relative error of a step over that moment does not depend
-    // on the length of the step.
+    // can begin where a species is 0. If a step includes such a moment, its relative error does not
+    // depend on its length.
     if (is_adaptive(stage_.time.solver) && (forcing_.has_motion() || forcing_.has_rest())) {
         state_.time.least_step = least_of_duration * duration_;
     }
@@ -130,9 +131,10 @@ void StageTimer::set_first_step() {
     }
 }
 
-/// The links of a model's cells have different weights, and the largest weight limits the stable
-/// step. A script that is stable on a plane should also be stable on a model and with a larger
-/// size. Explicit Euler is stable up to 2 / (largest eigenvalue).
+/// Returns the number of parts into which a step is divided. The links of a model's cells have
+/// different weights, and the largest weight limits the stable step. A script that is stable on a
+/// plane should also be stable on a model and with a larger size. Explicit Euler is stable for
+/// steps of at most 2 / (largest eigenvalue).
 std::uint32_t StageTimer::substeps(const Program& program, std::uint32_t stage) const {
     constexpr double safety = 0.95;
     const bool is_split =
@@ -142,12 +144,12 @@ std::uint32_t StageTimer::substeps(const Program& program, std::uint32_t stage) 
     if (const auto bound = jacobian_bound(program, stage, tools_.model)) {
         const Formula* const formulas[] = {&bound->whole, &bound->reaction};
         const std::vector<double> bounds = tools_.numbers(formulas)();
-        // In a grown pattern, reaction and diffusion are fastest in different cells, so the
-        // difference of their bounds would be too small.
+        // In a grown pattern, reaction and diffusion are fastest in different cells. The difference
+        // of their bounds would then be too small, so the whole bound is used.
         decay = begins_anew_ ? bounds[0] : bounds[0] - bounds[1];
     } else {
-        // There is no bound by rule, for example because the direction of diffusion depends on
-        // a species.
+        // There is no rule for bounds, for example because the direction of diffusion depends on a
+        // species.
         decay = tools_.estimate();
     }
     if (!std::isfinite(decay)) return state_.time.stages;
@@ -159,8 +161,8 @@ const StepProblem& StageTimer::problem() {
     return problem_of(state_.time.stages, judges_all_steps(stage_));
 }
 
-/// Runge-Kutta-Legendre of first order generalises Euler's method. Up to three parts cost no more
-/// than three stages.
+/// Runge-Kutta-Legendre of first order generalises Euler's method, so its stages can replace parts.
+/// Up to three parts are not replaced, because they cost no more than three stages.
 std::uint32_t StageTimer::stages_for_parts(std::uint32_t parts) {
     constexpr std::uint32_t few = 3;
     const std::uint32_t stages = stages_for(Solver::rkl1, parts);
@@ -197,12 +199,12 @@ RateBounds StageTimer::bounds() const {
             return {bounds[0], bounds[1], jumps_};
     }
     const double whole = tools_.estimate();
-    // The explicit part may be as fast as the whole, because it includes advection.
+    // The explicit part may be as fast as the whole system, because it includes advection.
     if (is_partly_implicit(stage_.time.solver)) return {whole, whole, jumps_};
     return {whole, share_of_reaction * whole, jumps_};
 }
 
-/// Chooses the number of stages for steps of a given length.
+/// Chooses the number of stages at a given step. The length of steps is fixed.
 StepChoice StageTimer::choose_stages_at(std::int64_t step, TimeState& time) {
     state_.go_to(step, time.clock.at(step));
     time.stages = choose_stages(stage_.time.solver, bounds(), speed_);
@@ -217,7 +219,8 @@ double StageTimer::longest_step(bool is_bounded) const {
     return (is_bounded ? most_of_duration : most_of_duration_without_bound) * expected_duration();
 }
 
-/// Bounds that are not finite count as unknown, and are computed again in the next step.
+/// Computes the bounds at a step. Bounds that are not finite count as unknown, and are computed
+/// again in the next step.
 void StageTimer::look_at_bounds(std::int64_t step, TimeState& time) {
     time.bounds = bounds();
     time.bounded_at = step;
@@ -255,7 +258,7 @@ StepChoice StageTimer::choose_by_error(std::int64_t step, TimeState& time, bool 
     time.stages = safe.stages;
     time.least_step = least_of_duration * expected_duration();
     // If a solver is implicit in each cell, the bound leaves out the local reaction, which may be
-    // faster. It then gives no least step.
+    // faster than the bound. So the bound sets no least step.
     if (time.bounds.whole > 0 && !is_locally_implicit(solver))
         time.least_step = std::min(time.least_step, least_part * 2 / time.bounds.whole);
     time.stretch = is_long ? 1 : stretch_after(before, time, rejected, safe.length, by_time);
@@ -263,7 +266,7 @@ StepChoice StageTimer::choose_by_error(std::int64_t step, TimeState& time, bool 
     return {safe.length, &problem_of(time.stages, is_long), &problem_of(time.stages, true)};
 }
 
-/// The number of steps until the next error estimate.
+/// Returns the number of steps until the next error estimate.
 std::int64_t StageTimer::stretch_after(const RateBounds& before, const TimeState& time,
                                        bool rejected, double length, double longest) const {
     if (rejected || time.bounded_at < 0) return 1;
@@ -281,7 +284,7 @@ std::int64_t StageTimer::stretch_after(const RateBounds& before, const TimeState
 bool StageTimer::has_ended(std::int64_t step, double t) {
     state_.go_to(step, t);
     if (stage_.time.until) return tools_.condition_holds();
-    // If `speed` varies, cells have no common time, so steps are counted instead.
+    // If `speed` varies, cells have no common time, so the number of steps is used as the age.
     const double age = uniform_speed_ ? t : static_cast<double>(state_.steps);
     return state_.watch.settled(state_.species(), age, *stage_.time.steady, tools_.inside);
 }

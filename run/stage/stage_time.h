@@ -17,26 +17,29 @@
 
 namespace cascade {
 
-/// A step on a model, or of a stage with a size, is divided into at most this number of parts.
+/// The largest number of parts into which a step is divided, on a model or in a stage with a size.
 inline constexpr std::uint32_t most_substeps = 10000;
 
-/// Computes some numbers from the present values.
+/// Computes numbers from the present values.
 using NumberSource = std::function<std::vector<double>()>;
 
-/// The functions through which a stage's timer reads the simulation. All read the present values.
+/// The functions through which a stage's timer reads the simulation. All of them read the present
+/// values.
 struct StageTools {
     std::function<StepProblem(const Scheme&)> bind;
-    /// Returns a function that computes uniform formulas and may be called repeatedly.
+    /// Returns a function that computes uniform formulas. It may be called repeatedly.
     std::function<NumberSource(std::span<const Formula* const>)> numbers;
-    /// Returns the values of a formula of constants and `t` alone.
+    /// Returns the values, as a function of time, of a formula that contains only constants and
+    /// `t`.
     std::function<ValueAt(const Formula&)> at_time;
-    /// Returns the argument of Forcing::add_motion() for a formula that also reads positions.
+    /// Returns the argument of Forcing::add_motion() for a formula that reads `t` and positions.
     std::function<std::vector<double>(const Formula&, double duration)> motion;
     /// Returns whether the condition of the stage's `until` is true.
     std::function<bool()> condition_holds;
-    /// Bounds the eigenvalues by a power iteration. Used if there is no bound by rule.
+    /// Estimates a bound of the eigenvalues by a power iteration. Used if there is no rule for
+    /// bounds.
     std::function<double()> estimate;
-    const Mask* inside = nullptr;       ///< The cells that count. Null if all cells do.
+    const Mask* inside = nullptr;  ///< The cells that belong to the domain. Null if all cells do.
     const ModelFacts* model = nullptr;  ///< Null on grids.
 };
 
@@ -46,20 +49,20 @@ public:
     /// control, its step control begins anew.
     StageTimer(const Program& program, std::uint32_t stage, StageState& state, StageTools tools);
 
-    /// The number of parts into which each step is divided so that it is stable on the cells of a
-    /// model or with a size.
+    /// Returns the number of parts into which each step is divided so that it is stable on the
+    /// cells of a model or with a size.
     std::uint32_t substeps() const {
         return stage_.time.solver == Solver::euler ? state_.time.stages : 0;
     }
-    /// The number of stages of Runge-Kutta-Legendre that replace this number of parts. 0 if the
-    /// parts are not replaced.
+    /// Returns the number of stages of Runge-Kutta-Legendre that replace this number of parts, or 0
+    /// if the parts are not replaced.
     static std::uint32_t stages_for_parts(std::uint32_t parts);
-    /// The scheme of an Euler step that is divided into at least 2 parts, or of the stages that
-    /// replace them.
+    /// Returns the scheme of an Euler step that is divided into at least 2 parts, or the scheme of
+    /// the stages that replace these parts.
     static Scheme split_scheme(std::uint32_t species, std::uint32_t parts);
-    /// The passes of the first step, bound to the stage's values.
+    /// Returns the passes of the first step, bound to the stage's values.
     const StepProblem& problem();
-    /// A complete schedule except for its threads. Schedule explains `interval`.
+    /// Returns a schedule that is complete except for its threads. Schedule explains `interval`.
     Schedule schedule(std::int64_t last_step, std::int64_t interval);
 
 private:
@@ -69,7 +72,8 @@ private:
     RateBounds bounds() const;
     Forcing forcing(const Program& program, std::uint32_t stage) const;
     void set_first_step();
-    double expected_duration() const;  ///< Finite even if only `until` ends the stage.
+    double expected_duration()
+        const;  ///< Returns a duration that is finite even if only `until` ends the stage.
     double longest_step(bool is_bounded) const;
     void look_at_bounds(std::int64_t step, TimeState& time);
     StepChoice choose_stages_at(std::int64_t step, TimeState& time);
@@ -84,26 +88,28 @@ private:
     StageState& state_;
     StageTools tools_;
     std::uint32_t species_;
-    /// Whether the stage continues without the state of its step control, for example after an edit
-    /// of the script.
+    /// Whether the stage continues without the stored state of its step control, for example after
+    /// an edit of the script.
     bool begins_anew_ = false;
     bool uniform_speed_;
-    double speed_;                 ///< The value of `speed`. 1 if it varies.
-    double duration_;              ///< Infinite if the stage has no duration.
-    Forcing forcing_;              ///< Used if the solver chooses the length of steps.
+    double speed_;     ///< The value of `speed`, or 1 if it varies by cell.
+    double duration_;  ///< Infinity if the stage has no duration.
+    /// Limits steps by changes in time. Used only if the solver chooses the length of steps.
+    Forcing forcing_;
     NumberSource bounds_by_rule_;  ///< Computes RateBounds. Null if there is no rule for them.
-    bool jumps_ = false;           ///< Whether rates jump at thresholds.
-    /// By the number of stages, and by whether the error of the step is estimated.
+    bool jumps_ = false;           ///< Whether rates jump where values cross thresholds.
+    /// The problems of steps, by the number of stages and by whether the error of the step is
+    /// estimated.
     std::map<std::pair<std::uint32_t, bool>, StepProblem> problems_;
 };
 
-/// Whether the item `speed`, which may vary, gives the length of each step.
+/// Whether the item `speed` gives the length of each step. It may vary by cell.
 bool steps_by_item(const Stage& stage);
 
 /// Whether the error of every step is estimated.
 bool judges_all_steps(const Stage& stage);
 
-/// The duration of a started stage. Infinite if it has none.
+/// Returns the duration of a started stage, or infinity if it has none.
 double duration_of(const Stage& stage, const System& system, const StageState& state);
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
-// Suggests nine tenths of the limit, rounded to two digits, and the iterations that cover the same
-// time.
+// Suggests a speed of nine tenths of the limit, rounded to two digits. Also suggests the number of
+// iterations that covers the same time.
 #include "run/stage/step_advice.h"
 
 #include <fmt/format.h>
@@ -10,10 +10,10 @@ namespace cascade {
 
 namespace {
 
-/// The speed to suggest: nine tenths of the limit, rounded to two digits.
+/// Returns the speed to suggest: nine tenths of the limit, rounded to two digits.
 double safe_speed(double limit) { return std::stod(fmt::format("{:.2g}", 0.9 * limit)); }
 
-/// `; iterations: N` with the number of steps that cover the same time.
+/// Returns `; iterations: N` with the number of steps that cover the same time.
 std::string iterations_for(double speed, const StepInUse& use) {
     const double count = std::ceil(static_cast<double>(use.iterations) * use.speed / speed);
     const bool is_possible = use.iterations > 0 && use.speed > speed && count <= 1e9;
@@ -44,7 +44,7 @@ std::string advise(double limit, const StepInUse& use) {
         limit, used, speed, iterations_for(speed, use));
     if (use.diffusion_limits && !std::isnan(use.speed)) {
         text += ", or longer steps: 'solver: rkl2; speed: auto";
-        // The suggested duration replaces the iterations.
+        // The suggested duration replaces the setting `iterations`.
         if (use.iterations > 0) {
             text +=
                 fmt::format("; duration: {:.6g}", static_cast<double>(use.iterations) * use.speed);

@@ -1,4 +1,4 @@
-// The kernels of a stage's steps, and warnings about kernels that are interpreted.
+// The kernels that a stage's steps use, and warnings about kernels that are interpreted.
 #pragma once
 
 #include "core/run_control.h"
@@ -19,11 +19,12 @@ public:
 
     void add(KernelPointer kernel) { kernels_.push_back(std::move(kernel)); }
 
-    /// Adds a kernel of the steps to the identity, whether it is compiled or interpreted.
+    /// Adds a kernel of the steps to the hash of all kernels, whether the kernel is compiled or
+    /// interpreted.
     void identify(const CellKernel& kernel) {
         identity_ = 0x100000001b3 * (identity_ ^ hash(kernel));
     }
-    /// A hash of all kernels that identify() has added so far.
+    /// Returns a hash of all kernels that identify() has added so far.
     std::uint64_t identity() const { return identity_; }
 
     /// Warns of the kernels that could not be compiled and are interpreted.
@@ -32,7 +33,7 @@ public:
             if (const Failure* const refusal = kernel->refusal()) warn(*refusal, control);
         }
     }
-    /// Whether some kernels are still being compiled, which may fail later.
+    /// Whether some kernels are still being compiled. Compiling them may fail later.
     bool is_provisional() const {
         return std::any_of(kernels_.begin(), kernels_.end(),
                            [](const KernelPointer& kernel) { return kernel->is_provisional(); });
@@ -41,7 +42,7 @@ public:
     /// Whether a kernel is interpreted because it could not be compiled.
     bool has_refused() const { return has_refused_; }
 
-    /// Warns that a kernel is interpreted. Each reason is given once.
+    /// Warns that a kernel is interpreted. Each reason is given only once.
     void warn(const Failure& refusal, RunControl& control);
 
 private:

@@ -1,4 +1,4 @@
-// Counts the operations of each kernel (ir/kernel_cost.h), and each plane of a pass once.
+// Counts the operations of each kernel (ir/kernel_cost.h). In each pass, counts each plane once.
 #include "run/stage/step_work.h"
 
 #include "core/check.h"
@@ -10,7 +10,7 @@ namespace cascade {
 
 namespace {
 
-/// The mean number of links of a cell.
+/// Returns the mean number of links of a cell, including unused links that fill up slices.
 double links_of(const StepProblem& problem) {
     if (problem.links == nullptr) return 0;
     constexpr std::int64_t slice = PlaneLayout::row_pad;
@@ -47,7 +47,7 @@ private:
         CHECK(pass.source, "what a pass computes is known");
         const KernelCost cost = cost_of(*pass.source, problem_.grid.stencil(), work_.links);
         work_.cost += cost;
-        // Two slots may refer to the same plane.
+        // Two slots may refer to the same plane, which is read only once.
         const std::set<StepProblem::PlaneRef> read(pass.fields.begin(), pass.fields.end());
         touched_.insert(read.begin(), read.end());
         for (const auto& result : pass.results) touched_.insert(result.plane);
@@ -57,7 +57,7 @@ private:
         link_bytes_ = std::max(link_bytes_, cost.link_bytes);
     }
 
-    /// A reduction is a tree over the cells, in which each cell is loaded and combined once.
+    /// Counts a reduction as a tree over the cells, in which each cell is loaded and combined once.
     void add(const StepProblem::Reduction& reduction) {
         work_.cost.operations += 1;
         work_.cost.loads += 1;
@@ -67,8 +67,8 @@ private:
     }
 
     const StepProblem& problem_;
-    double word_;            ///< Bytes of a number.
-    double link_bytes_ = 0;  ///< Bytes of links per cell, for the pass that reads the most.
+    double word_;            ///< The bytes of a number.
+    double link_bytes_ = 0;  ///< The bytes of links per cell, in the pass that reads the most.
     std::set<StepProblem::PlaneRef> touched_;
     std::set<const Mask*> masks_;
     StepWork work_;

@@ -1,5 +1,5 @@
-// The clock is read whenever the scope changes. The time since the last change goes to the previous
-// scope.
+// The clock is read whenever a scope begins or ends. The time since the last reading goes to the
+// scope in which the time has passed.
 #include "run/stage/time_account.h"
 
 #include "core/processor_time.h"

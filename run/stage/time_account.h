@@ -1,7 +1,7 @@
 // Records how the time of a run is spent, for the option `--timing`.
 //
-// Only the thread of the run records times. A nested scope pauses the outer one. So each moment is
-// counted once, and the parts add up to the whole.
+// Only the thread of the run records times. A nested scope pauses the scope around it. So each
+// moment is counted only once, and the categories add up to the whole time.
 #pragma once
 
 #include "ir/backend.h"
@@ -24,10 +24,10 @@ inline double seconds_since(std::chrono::steady_clock::time_point moment) {
 /// The categories of time.
 enum class Spent : std::uint8_t {
     reading,  ///< Reading and checking scripts and their files.
-    /// Making the cells of a model, and the values that formulas read at positions on it.
+    /// Making the cells of a model, and computing values that formulas read at positions on it.
     cells,
     starting,   ///< Computing starting values, masks and step-invariants.
-    compiling,  ///< Compiling kernels: from checked formulas to code.
+    compiling,  ///< Compiling kernels, from checked formulas to code.
     stepping,
     drawing,  ///< Writing pictures, frames, logs and files.
     rest,     ///< Everything else.
@@ -52,12 +52,12 @@ public:
     /// Starts the clock, with the category `rest`.
     TimeAccount();
 
-    /// During its lifetime, adds the time to one category. Scopes may be nested. Does nothing if
-    /// the account is null.
+    /// During its lifetime, adds the time that passes to one category. Scopes may be nested. Does
+    /// nothing if the account is null.
     class Scope {
     public:
-        /// `stage` is the number of a stage. Without one, the time goes to the stage of the
-        /// enclosing scope.
+        /// `stage` is the number of a stage. If it is not given, the time goes to the stage of the
+        /// scope around this one.
         Scope(TimeAccount* account, Spent what, std::optional<std::uint32_t> stage = std::nullopt);
         Scope(TimeAccount& account, Spent what, std::optional<std::uint32_t> stage = std::nullopt)
             : Scope(&account, what, stage) {}
@@ -71,19 +71,20 @@ public:
         std::optional<std::uint32_t> stage_;
     };
 
-    /// The account of the stage with this number, which is added if it is new.
+    /// Returns the account of the stage with this number. If there is none yet, adds one.
     Stage& stage(std::uint32_t number);
 
-    /// The numbers of kernels that were compiled or found on disk, up to the last step.
+    /// The numbers of kernels that were compiled or found on disk until the last step was taken.
     KernelCounts kernels;
 
     const std::vector<Stage>& stages() const { return stages_; }
-    /// Seconds of a category so far, in all stages and outside of them, including the present
-    /// scope.
+    /// Returns the seconds of a category so far, in all stages and outside of stages, including the
+    /// present scope.
     double seconds(Spent what);
-    /// Seconds since the account began, which is the sum of all categories.
+    /// Returns the seconds since the account began, which is the sum of all categories.
     double seconds();
-    /// Processor time of the process before the account began, mostly for loading libraries.
+    /// Returns the processor time of the process before the account began, which was mostly spent
+    /// on loading libraries.
     double seconds_before() const { return before_; }
 
 private:

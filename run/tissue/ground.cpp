@@ -1,5 +1,5 @@
-// Crawling cells can read every plane of the domain. The value is interpolated at the position of
-// the domain that is nearest to the cell.
+// Crawling cells can read every plane of the domain. At a crawling cell, the values are
+// interpolated at the nearest position of the domain.
 #include "run/tissue/ground.h"
 
 #include "core/overloaded.h"
@@ -11,7 +11,7 @@ namespace cascade {
 
 namespace {
 
-/// The mesh of a model in the script's unit of length.
+/// Returns the mesh of a model with lengths in the script's unit.
 SurfaceMesh in_script_lengths(const SurfaceMesh& mesh) {
     SurfaceMesh scaled = mesh;
     const ModelBox box(mesh);
@@ -19,7 +19,7 @@ SurfaceMesh in_script_lengths(const SurfaceMesh& mesh) {
     return scaled;
 }
 
-/// The size of the box that a grid fills. A plane has no depth.
+/// Returns the size of the box that a grid fills. A plane has no depth.
 Vector3d extent_of(const Grid& grid) {
     const auto longest = static_cast<double>(grid.longest_side());
     const auto side = [&](std::int64_t cells) { return static_cast<double>(cells) / longest; };
@@ -32,7 +32,7 @@ std::unique_ptr<Surroundings> box_of(const Grid& grid) {
                                     grid.depth > 1 && repeats(grid.boundary.z)});
 }
 
-/// A curvature at each point of a mesh, in units of 1 / `unit`.
+/// Computes a curvature at each point of a mesh, in units of 1 / `unit`.
 std::vector<float> curvature_at_points(const SurfaceMesh& mesh, ModelPlane which, double unit) {
     std::vector<float> values;
     if (which == ModelPlane::curvature) {
@@ -53,7 +53,7 @@ std::vector<float> curvature_at_points(const SurfaceMesh& mesh, ModelPlane which
     return values;
 }
 
-/// Whether the plane belongs to the crawling cells themselves.
+/// Whether the values of the plane belong to the crawling cells, and not to the domain.
 bool is_of_tissue(ModelPlane plane) {
     return plane == ModelPlane::number || plane == ModelPlane::area;
 }
@@ -92,7 +92,8 @@ PlaceValue TissueGround::value_of(const Field& field) const {
     return of_cells(*filter_, std::vector<float>(values.begin(), values.end()));
 }
 
-/// A cell's position along a side of the domain's box, as a fraction of that side.
+/// Returns a function that gives a cell's position along a side of the domain's box, as a fraction
+/// of that side.
 PlaceValue TissueGround::part_of_side(std::size_t axis) const {
     const Vector3d extent = model_ != nullptr ? surroundings_->extent() : extent_of(grid_);
     const double side = axis == 0 ? extent.x : axis == 1 ? extent.y : extent.z;

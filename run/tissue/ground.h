@@ -14,18 +14,19 @@ namespace cascade {
 /// The surroundings of tissues. Lengths are in the script's unit.
 class TissueGround {
 public:
-    /// The ground of a domain. `model` is null on grids, and must outlive the ground.
-    /// Throws std::bad_alloc.
+    /// Makes the ground of a domain. `model` is null on grids, and must outlive the ground. Throws
+    /// std::bad_alloc.
     TissueGround(const Grid& grid, const ModelCells* model);
-    /// The surface of a body in the volume of a grid. Its lengths are in the script's unit.
+    /// Makes the ground for the surface of a body in the volume of a grid. The surface has lengths
+    /// in the script's unit.
     TissueGround(const Grid& grid, SurfaceMesh body);
 
     const std::shared_ptr<const Surroundings>& surroundings() const { return surroundings_; }
-    /// The surface of a body, in the script's unit of length. Null if there is no body.
+    /// Returns the surface of a body, in the script's unit of length, or null if there is no body.
     std::shared_ptr<const SurfaceMesh> body() const { return model_ == nullptr ? mesh_ : nullptr; }
 
-    /// A function that gives the value of a plane at a crawling cell. Planes of the domain are read
-    /// through `fields`, so their values are current.
+    /// Returns a function that gives the value of a plane at a crawling cell. Planes of the domain
+    /// are read through `fields` at each call, so their values are current.
     Sense sense_of(const PlaneSource& source, const BindingContext& fields) const;
 
 private:
@@ -34,14 +35,15 @@ private:
 
     Grid grid_;
     const ModelCells* model_;
-    /// The mesh of a model or of a body. Otherwise null.
+    /// The mesh of a model or of a body. Null on planes and in boxes.
     std::shared_ptr<const SurfaceMesh> mesh_;
-    /// The filter that interpolates values of the model's cells. Made when it is first needed.
+    /// The filter that interpolates values of the model's cells. It is made when it is first
+    /// needed.
     mutable std::unique_ptr<CellFilter> filter_;
     std::shared_ptr<const Surroundings> surroundings_;
 };
 
-/// The planes of the domain that plans read at crawling cells. Each occurs once.
+/// Returns the planes of the domain that plans read at crawling cells. Each plane occurs once.
 std::vector<PlaneSource> sensed_by(std::span<const StepPlan* const> plans);
 
 }  // namespace cascade

@@ -1,4 +1,4 @@
-// Each group of formulas is a plan. When the memory of the cells' planes has moved, the passes of
+// Each group of formulas is a plan. If the planes of the cells have moved in memory, the passes of
 // the plan are bound again.
 #include "run/tissue/script_rules.h"
 
@@ -14,8 +14,8 @@ namespace cascade {
 
 namespace {
 
-/// Whether the passes read the time, the number of steps, or sums over all cells. These change even
-/// if the planes do not.
+/// Whether the passes read the time, the number of steps, or sums over all cells. Such values
+/// change even if the planes do not.
 bool changes(const StepProblem& problem) {
     return std::any_of(problem.passes.begin(), problem.passes.end(),
                        [](const StepProblem::Pass& pass) { return !pass.changing.empty(); });

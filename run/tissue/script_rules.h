@@ -12,7 +12,7 @@
 
 namespace cascade {
 
-/// The formula of a component of a vector. `number` is 0, 1 or 2 for x, y or z.
+/// Returns the formula of a component of a vector. `number` is 0, 1 or 2 for x, y or z.
 Formula component_of(const Formula& vector, int number);
 
 /// Binds the plans of a stage to the planes of its tissue.
@@ -20,8 +20,8 @@ class ScriptRules : public TissueRules {
 public:
     struct Makers {
         StagePlans& plans;
-        Compile steps;   ///< Used for steps and rates.
-        Compile seldom;  ///< Used for formulas that are evaluated at divisions.
+        Compile steps;   ///< Compiles kernels for steps and rates.
+        Compile seldom;  ///< Compiles kernels for formulas that are evaluated at divisions.
     };
     ScriptRules(TissueStage stage, Makers makers, std::shared_ptr<NearTriangles> near);
 
@@ -33,7 +33,8 @@ public:
     Restarts restarts() override { return {values_of(restarts_, makers_.seldom), restarted_}; }
 
 private:
-    /// The values of some formulas. Their plan is bound when they are first needed.
+    /// A group of formulas whose values are read together. Their plan is bound when the values are
+    /// first needed.
     struct Values {
         std::optional<StepPlan> plan;
         std::unique_ptr<StepProblem> problem;
@@ -48,14 +49,15 @@ private:
     TissueBinding binding_;
     Grid grid_;
     Values rates_, conditions_, along_, restarts_;
-    /// For each result of `restarts_`: the index of a species, or the number of species plus the
-    /// index of another item, whose plane is kept from step to step.
+    /// Describes each result of `restarts_`. The results belong to planes that are kept from step
+    /// to step: species, which are described by their indices, and other items, which are described
+    /// by the number of species plus their indices.
     std::vector<std::size_t> restarted_;
     struct Step {
         std::unique_ptr<StepProblem> problem;
         std::vector<RegisterId> states;
     };
-    std::map<std::uint32_t, Step> steps_;  ///< By the number of stages of a step.
+    std::map<std::uint32_t, Step> steps_;  ///< The bound step for each number of stages of a step.
 };
 
 }  // namespace cascade

@@ -1,5 +1,5 @@
-// A separate kernel computes the values of the domain's planes at the crawling cells, for all
-// planes that plans read there.
+// A separate kernel computes the values that plans read at the crawling cells from planes of the
+// domain.
 #include "run/tissue/tissue_binding.h"
 
 #include "run/stage/plan_runner.h"
@@ -11,7 +11,7 @@ namespace cascade {
 
 namespace {
 
-/// The links between the cells of a tissue, in the order in which memory stores the cells.
+/// Returns the links between the cells of a tissue, in the order in which memory stores the cells.
 Result<Links> links_between(const Tissue& tissue, const TissueStage& stage,
                             const NeighbourRule& rule, Team& team) {
     const auto number = [&](SpeciesId species, std::size_t cell) {

@@ -19,7 +19,8 @@ struct TissueStage {
     const Program& program;
     std::uint32_t stage = 0;
     const TissueGround& ground;
-    /// The context of the stage without its tissue. Crawling cells read planes through it.
+    /// The context of the stage without its tissue. Through it, crawling cells read planes of the
+    /// domain.
     BindingContext fields;
 
     const System& system() const { return program.system_of(stage); }
@@ -29,7 +30,8 @@ struct TissueStage {
     }
 };
 
-/// Binds plans to a tissue, without links. The values of planes at the cells are current.
+/// Binds plans to a tissue, without links. Afterwards, the values of the domain's planes at the
+/// crawling cells are current.
 TissueBinding binding_of(const TissueStage& stage, const Tissue& tissue,
                          std::span<const StepPlan* const> plans,
                          std::shared_ptr<NearTriangles> near);
@@ -37,12 +39,12 @@ TissueBinding binding_of(const TissueStage& stage, const Tissue& tissue,
 /// Whether a plan reads other cells through links.
 bool reads_links(const StepPlan& plan);
 
-/// The rule that decides which cells are neighbours. `near` is the largest distance d of any `over
-/// near(d)`.
+/// Returns the rule that decides which cells are neighbours. `near` is the largest distance d in
+/// any `over near(d)`.
 NeighbourRule neighbours_of(const TissueStage& stage, double near);
 
-/// Evaluates a plan in the cells of a tissue, in its present state. The values are in the order in
-/// which memory stores the cells. Fails if there are too many neighbours.
+/// Evaluates a plan in the cells of a tissue, which has its present state. The values are in the
+/// order in which memory stores the cells. Fails if the cells have too many neighbours in total.
 Result<std::vector<Field>> evaluate_in(const Tissue& tissue, const StepPlan& plan,
                                        const TissueStage& stage, const NeighbourRule& rule,
                                        const Compile& compile, Team& team);

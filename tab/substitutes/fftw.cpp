@@ -36,7 +36,7 @@ struct Lines {
 /// its imaginary part.
 struct Pass {
     Transform transform;
-    fftw_r2r_kind kind;  ///< For a real transform.
+    fftw_r2r_kind kind;  ///< The kind of a real transform.
     int n, count;
     Lines from, to;
 };

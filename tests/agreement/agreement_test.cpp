@@ -1,5 +1,5 @@
-// Whole scripts give the same bits interpreted and compiled, on one thread and on several, and on
-// grids in parts.
+// Whole scripts give the same bits whether they are interpreted or compiled, on one thread or
+// several, and on whole grids or grids in parts.
 
 #include "random_scripts.h"
 #include "script_outcome.h"
@@ -86,8 +86,8 @@ void compare_random_scripts(Precision precision, int scripts) {
 TEST(Agreement, RandomScripts) { compare_random_scripts(Precision::single, 1000); }
 TEST(Agreement, RandomScriptsInDouble) { compare_random_scripts(Precision::binary64, 250); }
 
-/// Scripts from new seeds give the same bits interpreted and compiled, in tiles of several steps
-/// and step by step.
+/// Scripts from new seeds give the same bits whether they are interpreted or compiled, in tiles of
+/// several steps or step by step.
 TEST(Agreement, NewRandomScripts) {
     constexpr std::uint64_t scripts = 500;
     constexpr std::array<Tiling, 4> tilings = {Tiling{}, Tiling{7, 2}, Tiling{3, 1},
@@ -109,7 +109,7 @@ TEST(Agreement, NewRandomScripts) {
     }
 }
 
-/// Operands at neighbours may be computed again or read from a plane.
+/// The bits are the same whether operands at neighbours are computed again or read from a plane.
 TEST(Agreement, HoweverOperandsComeToNeighbours) {
     Team team(2);
     const InputFiles no_files;
@@ -150,7 +150,7 @@ TEST(Agreement, HoweverOperandsComeToNeighbours) {
     EXPECT_GT(passes_differ, 50);
 }
 
-/// Step-invariants may be computed in each step or once.
+/// The bits are the same whether step-invariants are computed in each step or once.
 TEST(Agreement, HoweverStepsArePlanned) {
     std::size_t kept = 0;
     for (int seed = 0; seed < 500; ++seed) {
@@ -172,8 +172,8 @@ TEST(Agreement, HoweverStepsArePlanned) {
     EXPECT_GT(kept, 100u);
 }
 
-/// All plans of a step give the same bits with `--fast`: runs compute step-invariants once,
-/// compiled stages in each step, and any operands may be in planes.
+/// With `--fast`, all plans of a step give the same bits: step-invariants may be computed once, as
+/// in runs, or in each step, as in compiled stages, and any operands may be in planes.
 TEST(Agreement, HoweverFastStepsArePlanned) {
     Overrides overrides;
     overrides.fast = true;
@@ -214,7 +214,7 @@ stage g0: s0 { iterations: 5; speed: 0.125
     expect_same(expected, run_script("sixfold", text, overrides, options), text);
 }
 
-/// Random scripts in domains that grow, along all axes alike or not.
+/// Runs random scripts in domains that grow, equally along all axes or not.
 TEST(Agreement, RandomScriptsInGrowingDomains) {
     int scripts = 0, failed = 0;
     for (std::uint64_t seed = 0; seed < 20000 && scripts < 40; ++seed) {
@@ -232,8 +232,8 @@ TEST(Agreement, RandomScriptsInGrowingDomains) {
         text.replace(spacing, end - spacing, extent);
         Overrides overrides;
         overrides.precision = seed % 3 == 0 ? Precision::binary64 : Precision::single;
-        // Scripts that cannot grow are refused. Of the others only scripts that read neighbours are
-        // run.
+        // Scripts whose domain cannot grow are refused. Of the others, only scripts that read
+        // neighbours are run.
         if (!load_script("random", text, ".", overrides).program) continue;
         const bool reads_neighbours =
             text.find("lap(") != text.npos || text.find("grad") != text.npos;
@@ -271,7 +271,7 @@ TEST(Agreement, RandomScriptsOnModels) {
                      fmt::format("domain {{ surface: sphere; {}; seed: {} }}",
                                  domains[seed % domains.size()], seed));
         overrides.precision = seed % 3 == 0 ? Precision::binary64 : Precision::single;
-        // Scripts that have no meaning on models are refused. Of the others only scripts that read
+        // Scripts that have no meaning on models are refused. Of the others, only scripts that read
         // neighbours are run.
         if (!load_script("random", text, ".", overrides).program) continue;
         const bool reads_neighbours =

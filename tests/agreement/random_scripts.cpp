@@ -19,8 +19,8 @@ struct FunctionRow {
     Contexts places;
 };
 
-/// All functions except those that only lowering makes and those of crawling cells, which these
-/// scripts do not contain.
+/// Returns all functions except those that only lowering creates and those for crawling cells,
+/// which these scripts do not contain.
 std::vector<FunctionRow> functions_of_fields() {
     std::vector<FunctionRow> rows;
     const auto add = [&](Function function, const FunctionRow& row) {
@@ -110,11 +110,11 @@ private:
         return number();
     }
 
-    /// An expression above −0.1 where this is known. In functions a name may have any value.
+    /// Writes an expression that is above −0.1 if it is outside of functions.
     std::string scale(Place place) { return function_count_ < 2 ? number() : leaf(place); }
 
     std::string call(const FunctionRow& row, Place place, int depth) {
-        // A literal divisor of 0 is an error; a divisor that varies is not.
+        // A literal divisor of 0 is an error. A varying divisor may be 0.
         if (row.spelling == "/") {
             return fmt::format("({}) / (0.75 + {})", expression(place, depth - 1), leaf(place));
         }
@@ -138,7 +138,7 @@ private:
                                stream_.pick<std::string_view>(components));
         }
         if (row.spelling == "convolve") {
-            // The sum over few cells is direct, over more by transforms.
+            // Convolutions over few cells are summed directly, others use transforms.
             return fmt::format("convolve(1 - 0.2 * distance, {}, {})", expression(place, depth - 1),
                                1 + stream_.below(4));
         }
@@ -228,7 +228,7 @@ private:
     }
 
     bool fits(const FunctionRow& row, Place place) const {
-        // Functions that are allowed in fluxes only, or with constant points only.
+        // Functions that are allowed only in fluxes or only with constant points.
         static constexpr std::array<std::string_view, 9> only_elsewhere = {
             "grad", "vector", "tensor", "symmetric", "cross", "unit", "curl", "distance", "keys"};
         if (std::ranges::find(only_elsewhere, row.spelling) != only_elsewhere.end()) return false;
@@ -312,7 +312,7 @@ private:
         systems_.push_back(names);
     }
 
-    /// A family w[1] to w[n], in which each member reads the next in a ring.
+    /// Writes a family w[1] to w[n], in which each member reads the next in a ring.
     void write_family(SystemNames& names) {
         const std::uint32_t members = 1 + stream_.below(3);
         text_ +=
@@ -338,7 +338,7 @@ private:
         const SystemNames& names = systems_[system];
         text_ += fmt::format("stage g{}: s{} {{ iterations: {}; speed: {}\n", k, system,
                              stream_.below(6), stream_.chance(70) ? "0.125" : "0.1 + 0.05 * x");
-        // Bare names read the previous stage, which may run the other system. [p] reads this stage.
+        // Names belong to the previous stage, perhaps of the other system, [names] to this stage.
         readable_.clear();
         species_.clear();
         for (const std::string& name : previous_) readable_.push_back(name);
@@ -359,7 +359,7 @@ private:
         if (k == 0) previous_.push_back("g0.u0");
     }
 
-    /// The border of species u0, by the rules of sides.
+    /// Writes the border of species u0, with one of the rules for sides.
     void write_border() {
         static constexpr std::array<std::string_view, 4> rules = {"fixed(0.5)", "slope(0.01 * sx)",
                                                                   "slope(0.5 * sin([u0] - t))",
@@ -367,7 +367,7 @@ private:
         text_ += fmt::format("  u0.border: {}\n", mask_stream_.pick<std::string_view>(rules));
     }
 
-    /// The sides of species u0, which every system has.
+    /// Writes the sides of species u0, which exists in every system.
     void write_sides() {
         static constexpr std::array<std::string_view, 2> all = {"noflux", "periodic"};
         text_ +=
@@ -384,8 +384,8 @@ private:
     }
 
     RandomStream stream_, mask_stream_, stencil_stream_;
-    bool has_mask_ = false;   ///< With a mask, species have the sides of the domain.
-    bool is_fourth_ = false;  ///< With the stencil `fourth`, they have these sides, too.
+    bool has_mask_ = false;   ///< If true, species have no sides of their own.
+    bool is_fourth_ = false;  ///< If true, species have no sides of their own.
     std::string text_;
     std::vector<std::string> readable_, species_, previous_;
     std::vector<SystemNames> systems_;

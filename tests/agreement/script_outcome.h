@@ -17,8 +17,8 @@ struct Outcome {
     std::string failure;
 };
 
-/// Runs all stages of a script, up to `last_step` of each, or until one fails. Files that the
-/// script reads are in the folder of the examples.
+/// Runs the stages of a script one after another, each for at most `last_step` steps, until one
+/// fails. Files that the script reads are in the folder of the examples.
 Outcome run_script(const std::string& name, const std::string& text, Overrides overrides,
                    const SimulationOptions& options,
                    std::int64_t last_step = std::int64_t{1} << 40);

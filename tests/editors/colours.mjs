@@ -1,4 +1,5 @@
-// colours.mjs GRAMMAR SCRIPT: the colours that a TextMate grammar gives to a script, by the library of VS Code.
+// colours.mjs GRAMMAR SCRIPT: prints the colours that a TextMate grammar gives to a script, as the
+// library of VS Code computes them.
 import fs from "node:fs";
 import path from "node:path";
 import { createRequire } from "node:module";

@@ -1,6 +1,6 @@
 // A fuzzer of the whole front end: bytes are lexed, parsed, formatted, checked, and, if they are a
 // program, lowered and verified. All messages are rendered. It finds crashes, hangs, leaks and
-// failed CHECKs. It is built with clang, libFuzzer and sanitizers; README.md in this folder has the
+// failed CHECKs. It is built with clang, libFuzzer and sanitizers. README.md in this folder has the
 // commands.
 #include "core/check.h"
 #include "lang/check/check.h"

@@ -1,6 +1,6 @@
-// A fuzzer of the program's own cache files: cells of a model, compiled kernels. The first byte
-// chooses the reader, and whether the checksum is corrected, so that the data after the checksum is
-// also read.
+// A fuzzer of the readers of the program's own cache files, which hold cells of a model or a
+// compiled kernel. The first byte chooses the reader and whether the checksum is corrected. With a
+// correct checksum, the data is read, too.
 #include "core/check.h"
 #include "core/hash.h"
 #include "core/parallel.h"
@@ -19,7 +19,7 @@ namespace cascade {
 
 namespace {
 
-constexpr int mend_checksum = 2;  // The bit of the first byte for correcting the checksum.
+constexpr int mend_checksum = 2;  // If set in the first byte, the checksum is corrected.
 
 std::string content_of(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
@@ -75,7 +75,7 @@ public:
 
     void read(std::string bytes, bool is_mended) {
         constexpr std::size_t begin =
-            16;  // Where the data of the checksum begins, see core/kept_files.cpp.
+            16;  // Where the data that the checksum protects begins, see core/kept_files.cpp.
         if (is_mended && bytes.size() >= begin) {
             const std::uint64_t sum = fnv1a(std::string_view(bytes).substr(begin));
             std::memcpy(bytes.data() + 8, &sum, 8);

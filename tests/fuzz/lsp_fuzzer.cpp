@@ -24,7 +24,7 @@ std::string about(const std::string& method, const std::string& more) {
 
 extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments) {
     const std::string place = R"(,"position":{"line":0,"character":11})";
-    // Seeds have their first byte separately; here it is part of the stream.
+    // Seeds hold their first byte separately. Here, this byte is part of the stream.
     const auto rest = [](const std::string& body) { return cascade::lsp::framed(body).substr(1); };
     cascade::fuzz::write_seeds(
         *count, *arguments,

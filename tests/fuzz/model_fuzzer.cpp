@@ -1,6 +1,6 @@
 // A fuzzer of the readers of models: the first byte chooses the format, the others are the file.
 // The model is made into a surface, whose neighbours are checked. It finds crashes, hangs, leaks
-// and inconsistent surfaces. It is built with clang, libFuzzer and sanitizers; README.md in this
+// and inconsistent surfaces. It is built with clang, libFuzzer and sanitizers. README.md in this
 // folder has the commands.
 #include "core/check.h"
 #include "mesh/model_file.h"

@@ -7,7 +7,7 @@
 #include <cstdint>
 
 extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments) {
-    // Seeds have their first byte separately; here it is part of the text.
+    // Seeds hold their first byte separately. Here, this byte is part of the text.
     cascade::fuzz::write_seeds(
         *count, *arguments,
         {{"text", '{', R"("id": 1, "do": "text", "text": "stage one: turing_spots { }"})"},

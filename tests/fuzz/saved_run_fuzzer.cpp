@@ -86,7 +86,7 @@ void read(char reader, const std::string& text) {
         case 1: {
             const auto overrides = overrides_from_json(text);
             CHECK(has_reason(overrides), "changes that are refused have a message");
-            // Writing and reading again gives the same.
+            // Overrides that are written and read again must be the same.
             if (overrides) {
                 const std::string written = overrides_to_json(*overrides);
                 CHECK(overrides_to_json(overrides_from_json(written).value()) == written,

@@ -1,5 +1,5 @@
-// replay.mjs CASCADE: thirty requests by the client library of Visual Studio Code, with `vscode-languageserver-protocol`
-// from node_modules of the current folder.
+// replay.mjs CASCADE: sends thirty requests to the language server with the client library of
+// Visual Studio Code, `vscode-languageserver-protocol` from node_modules of the current folder.
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
 import fs from "node:fs";

@@ -77,8 +77,9 @@ State flat_state(const ReactionDiffusion& system, State guess) {
     return guess;
 }
 
-/// log |exp(A t)| grows in proportion to the wanted real part. exp is computed by its series near 0
-/// and repeated squaring. The norm is divided out after each squaring so that nothing overflows.
+/// log |exp(A t)| grows with t in proportion to the wanted real part. exp(A t) is computed by its
+/// series for small t and then squared repeatedly. After each squaring it is divided by its norm,
+/// so that nothing overflows.
 double growth_rate(const ReactionDiffusion& system, const State& flat, double square_of_k) {
     Matrix matrix = jacobian(system, flat);
     const std::size_t count = flat.size();

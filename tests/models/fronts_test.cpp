@@ -9,8 +9,8 @@
 namespace cascade::models {
 namespace {
 
-/// Speed of the front where `species` falls below `level`, in cells per unit of time, between two
-/// steps.
+/// The speed, in cells per unit of time, at which the position where `species` falls below `level`
+/// moves from step `first` to step `last`.
 double front_speed(Model& model, const std::string& species, double level, double time_step,
                    std::int64_t first, std::int64_t last) {
     model.step(first);
@@ -59,8 +59,8 @@ TEST(Fronts, FitzhughNagumo) {
 }
 
 /// With s susceptibles, the wave moves with the speed 2 √(D (β s − γ)) (J. V. Noble, Nature 250,
-/// 1974). It is pulled like Fisher's wave and approaches its speed as slowly, in units of r = β s −
-/// γ.
+/// 1974). It is a pulled front like Fisher's with r = β s − γ, and approaches its speed equally
+/// slowly.
 TEST(Fronts, Sir) {
     Model model("sir", "grid: 1000; boundary: noflux",
                 "speed: 0.01; contact: 1; recovery: 0.4; diffusion: 9; susceptible: 1\n"
@@ -71,7 +71,7 @@ TEST(Fronts, Sir) {
     EXPECT_NEAR(speed / predicted, 1, 0.01);
 }
 
-/// S. M. Allen and J. W. Cahn 1979: a wall moves by its curvature, so d(π R²)/dt = −2 π D.
+/// A wall moves at D times its curvature, so d(π R²)/dt = −2 π D (S. M. Allen and J. W. Cahn 1979).
 TEST(Fronts, AllenCahnDiscShrinks) {
     Model model("allen_cahn", "grid: 128, 128",
                 "speed: 0.04; diffusion: 4; u: 2 * disc(0.5, 0.5, 0.32) - 1");

@@ -1,4 +1,5 @@
-// Runs a system of the library in a test's own stage, step by step, by the public library.
+// Runs a system of the library in a stage that the test writes, step by step, through Cascade's
+// public interface.
 #pragma once
 
 #include "include/cascade/cascade.h"
@@ -13,8 +14,8 @@ class Model {
 public:
     /// Loads a whole script. Errors make the test fail.
     explicit Model(const std::string& script);
-    /// One stage of a system of the library. `domain` and `stage` are the statements of these
-    /// blocks.
+    /// Loads one stage with a system of the library. `domain` and `stage` are the statements of
+    /// these blocks.
     Model(const std::string& system, const std::string& domain, const std::string& stage);
 
     /// Takes steps. If the run fails or ends too early, the test fails.

@@ -29,8 +29,8 @@ TEST(Operators, SwiftHohenberg) {
     EXPECT_NEAR(model.largest("u"), std::sqrt(4 * 0.2 / 3), 0.15);
 }
 
-/// A shock from 1 to 0 moves with the mean of both as its speed. Its slope in the middle is (Δu)² /
-/// (8 ν).
+/// A shock from 1 to 0 moves at the speed 1/2, the mean of both values. Its slope in the middle is
+/// (Δu)² / (8 ν).
 TEST(Operators, BurgersShock) {
     Model model("burgers", "grid: 300; boundary: noflux",
                 "speed: 0.05; viscosity: 2; u: (1 - tanh((300 * x - 60) / 8)) / 2");
@@ -68,7 +68,8 @@ TEST(Operators, KlausmeierBandsClimb) {
     EXPECT_GT(ahead, behind);
 }
 
-/// Euler's limit for the zebra of A. Witkin and M. Kass (1991) is 2 / (4 (a11 + a22) + b) = 0.0769.
+/// For the zebra of A. Witkin and M. Kass (1991), the longest stable step of Euler's method is 2 /
+/// (4 (a11 + a22) + b) = 0.0769.
 TEST(Operators, ZebraHasItsLimitOfTheTimeStep) {
     const std::string zebra =
         "domain {{ grid: 64, 64 }}\n"

@@ -1,7 +1,7 @@
-// The default run of every system of the library, on a smaller grid: mean, deviation and wavelength
-// of the shown number are compared with stored numbers. Tolerances are from several seeds, so that
-// another kind of pattern fails, but not the same pattern with other random numbers. With
-// CASCADE_UPDATE=1 in the environment, missing or wrong numbers are measured again.
+// Runs every system of the library as by default, but on a smaller grid, and compares the mean,
+// deviation and wavelength of the shown number with stored numbers. The tolerances were found with
+// several seeds: another kind of pattern fails, but the same pattern with other random numbers
+// passes. With CASCADE_UPDATE=1 in the environment, missing or wrong numbers are measured again.
 #include "tests/oracle/test_run.h"
 
 #include "core/file.h"
@@ -74,7 +74,8 @@ std::map<std::string, Row> stored_rows() {
     return rows;
 }
 
-/// The median over several seeds. The tolerance is three times their scatter, but at least 3 %.
+/// Measures the medians over several seeds. The tolerance is three times the scatter between seeds,
+/// but at least 3 %.
 Row measured_row(const LibraryText& text) {
     constexpr int seeds = 5;
     std::array<Statistics, seeds> all;

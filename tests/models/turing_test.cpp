@@ -17,14 +17,15 @@ namespace {
 
 constexpr std::size_t turing_side = 192;
 
-/// A system of the library and its values, written in C++.
+/// A system of the library with its reaction and diffusion coefficients, written in C++.
 struct Case {
     std::string system;
     ReactionDiffusion mathematics;
-    State guess;  ///< Near the flat state.
+    State guess;  ///< Where Newton's method begins, near the flat state.
     std::vector<std::string> species;
     double speed;
-    double tolerance = 0.03;  ///< Of the wavelength; larger if many waves grow at similar rates.
+    /// The relative tolerance of the wavelength, larger if many waves grow at similar rates.
+    double tolerance = 0.03;
 };
 
 std::vector<Case> cases() {
@@ -132,8 +133,8 @@ std::vector<Case> cases() {
     };
 }
 
-/// The length in cells of the wave that grows fastest, by `cascade analyze` with the library's
-/// values.
+/// The wavelength in cells of the wave that grows fastest, as `cascade analyze` computes it with
+/// the library's values.
 double analysed_wavelength(const std::string& system) {
     const Script script =
         load_script("test", fmt::format("stage only: {} {{ iterations: 1 }}", system), ".");
@@ -180,13 +181,13 @@ TEST_P(TuringTest, WavelengthIsThatOfTheDispersionRelation) {
 INSTANTIATE_TEST_SUITE_P(Library, TuringTest, testing::ValuesIn(cases()),
                          [](const auto& each) { return each.param.system; });
 
-/// Turing's threshold of the Brusselator, B = (1 + A √(Du/Dv))², from the growth of its critical
-/// wave a little above and below.
+/// Finds Turing's threshold of the Brusselator, B = (1 + A √(Du/Dv))², from the growth of the
+/// critical wave a little above and below the threshold.
 TEST(Turing, BrusselatorThreshold) {
     constexpr int cells = 64, mode = 6;
     constexpr double feed = 2, diff_u = 4;
     const double step = 2 * std::sin(std::numbers::pi * mode / cells);
-    // Chosen so that kc² = A / √(Du Dv) is that of this wave.
+    // Chosen so that kc² = A / √(Du Dv) is the k² of this wave.
     const double diff_v = feed * feed / (diff_u * step * step * step * step);
     const double ratio = 1 + feed * std::sqrt(diff_u / diff_v);
     const double threshold = ratio * ratio;

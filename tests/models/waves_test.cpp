@@ -33,7 +33,7 @@ TEST(Waves, WaveKeepsItsEnergy) {
     }
 }
 
-/// The square of a wave packet is a probability: it stays 1.
+/// The sum of the squares of a wave packet is a probability, so it stays 1.
 TEST(Waves, SchroedingerKeepsItsParticle) {
     Model model("schroedinger", "grid: 64, 64; boundary: noflux", "momentum: 0.5");
     const double start = model.mean("re^2 + im^2");
@@ -61,7 +61,7 @@ TEST(Waves, KdvSoliton) {
     EXPECT_NEAR(model.largest("u"), 0.3, 0.006);
 }
 
-/// After a whole period a wave has its initial form; its frequency on the grid is ω = 2 sin(k/2).
+/// After a whole period a wave has its initial form. Its frequency on the grid is ω = 2 sin(k/2).
 TEST(Waves, WaveComesBack) {
     const double omega = 2 * std::sin(std::numbers::pi * 4 / 64);
     const double time_step = 2 * std::numbers::pi / omega / 1000;
@@ -135,7 +135,7 @@ TEST(Waves, HyperbolicBrusselatorGrowsAsTheorySays) {
         Model model("hyperbolic_brusselator", "grid: 64",
                     "speed: 0.002; u: 2 + 0.01 * cos(6 * pi * x); v: 1; inertia: " +
                         std::to_string(inertia));
-        // The wave oscillates, so its largest amplitude during some periods is taken.
+        // The wave oscillates, so its largest amplitude during some periods is measured.
         const auto swing = [&] {
             double most = 0;
             for (int k = 0; k < 100; ++k) {

@@ -46,7 +46,7 @@ TEST(WitkinKass, Zebra) {
     EXPECT_NEAR(model.largest("plus[1] - minus[1]"), 0.12, 0.03);
 }
 
-/// "Difference of abs's" treats on and off alike.
+/// In the pattern "difference of abs's", as many cells are on as off.
 TEST(WitkinKass, MazeIsBalanced) {
     Model model(button("maze"));
     model.finish();

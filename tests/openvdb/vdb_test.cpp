@@ -53,7 +53,7 @@ protected:
         return grid;
     }
 
-    /// The array of a .vti file with this index.
+    /// Reads the array at index `number` of a .vti file.
     template <typename Number>
     std::vector<Number> vti_array(const std::string& file, std::size_t number, std::size_t count) {
         const std::string data = read_file(path(file), 1 << 24).value_or("");
@@ -65,8 +65,8 @@ protected:
         return values;
     }
 
-    /// Whether the grid has the values of the array at the same positions. Values outside count as
-    /// NaN.
+    /// Checks that the grid has the values of the array at the same positions, and no voxel where
+    /// the array has NaN.
     template <typename Grid>
     void expect_same(const std::string& name, const std::string& species, std::size_t number) {
         using Number = typename Grid::ValueType;

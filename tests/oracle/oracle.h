@@ -17,7 +17,8 @@ namespace cascade::oracle {
 struct Surface {
     std::size_t width = 1;
     std::size_t height = 1;
-    bool periodic = true;  ///< If false, the value beyond a side is that of the cell at the side.
+    /// If false, the value beyond a side equals the value of the cell at the side.
+    bool periodic = true;
 
     std::size_t cells() const { return width * height; }
 };
@@ -28,18 +29,18 @@ using Values = std::vector<double>;
 /// Chemicals, parameters, `speed` and `frozen` (not 0 where a cell is frozen) by their names.
 using State = std::map<std::string, Values>;
 
-/// Takes `steps` simultaneous Euler steps of appendix B.1: chemicals a b, parameters diff_a diff_b
-/// beta ka.
+/// Takes `steps` Euler steps of appendix B.1, in which all cells change at the same time.
+/// Chemicals: a b. Parameters: diff_a diff_b beta ka.
 void turing_spots(const Surface& surface, State& state, int steps);
 
-/// Appendix B.2: chemicals a b, parameters p1 p2 p3 ai diff1 diff2 s.
+/// Takes steps of appendix B.2. Chemicals: a b. Parameters: p1 p2 p3 ai diff1 diff2 s.
 void autocatalysis(const Surface& surface, State& state, int steps);
 
-/// Appendix B.3: chemicals a b c d e, parameters p1 p2 p3 ai diff1 diff2.
+/// Takes steps of appendix B.3. Chemicals: a b c d e. Parameters: p1 p2 p3 ai diff1 diff2.
 void stripes(const Surface& surface, State& state, int steps);
 
-/// Pearson's equations 2, with the time and length of the grid: chemicals u v, parameters feed kill
-/// diff_u diff_v.
+/// Takes steps of Pearson's equations (2), with the cell and the step as units of length and time.
+/// Chemicals: u v. Parameters: feed kill diff_u diff_v.
 void gray_scott(const Surface& surface, State& state, int steps);
 
 }  // namespace cascade::oracle

@@ -49,7 +49,7 @@ double relative_difference(const std::vector<double>& actual, const std::vector<
     double largest = 0, magnitude = 0;
     for (std::size_t cell = 0; cell < expected.size(); ++cell) {
         const double difference = std::abs(actual[cell] - expected[cell]);
-        if (!(difference <= largest)) largest = difference;  // NaN is returned.
+        if (!(difference <= largest)) largest = difference;  // A difference of NaN is kept.
         magnitude = std::max(magnitude, std::abs(expected[cell]));
     }
     const auto [low, high] = std::minmax_element(expected.begin(), expected.end());
@@ -196,7 +196,7 @@ TEST_P(OracleTest, AHundredStepsOfEveryRecipe) {
     }
 }
 
-/// u of spec/random.md, in (−1, 1).
+/// The number u of spec/random.md, in (−1, 1).
 double symmetric_number(const std::string& key_text, std::uint32_t column, std::uint32_t row,
                         std::uint32_t draw) {
     std::uint64_t key = 0xcbf29ce484222325;
@@ -241,7 +241,7 @@ beta: random(12, random(0, 2)) + random(0, 3)
                 return symmetric_number(occurrence, i, j, draw);
             };
             const std::size_t cell = j * 9 + i;
-            const std::uint32_t one = 0x3f800000;  // The number 1 of the second step.
+            const std::uint32_t one = 0x3f800000;  // The second step has the number 1.0f.
             EXPECT_NEAR(kicked[cell], u("12\nfirst\nkick\n2\n") + u("12\nfirst\nkick\n2\n", one),
                         1e-6);
             EXPECT_NEAR(beta[cell],

@@ -13,7 +13,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// The discrete Fourier transform of `count` numbers with the distance `stride`, by its definition.
+/// Computes the discrete Fourier transform, by its definition, of `count` values that are `stride`
+/// apart.
 void transform(std::vector<Complex>& values, std::size_t first, std::size_t count,
                std::size_t stride, const std::vector<Complex>& roots) {
     std::vector<Complex> result(count);
@@ -60,7 +61,7 @@ double signed_wave_number(std::size_t bin, std::size_t count) {
     return 2 * bin > count ? k - static_cast<double>(count) : k;
 }
 
-/// Power-weighted mean of the wave numbers whose ring is from `low` to `high`.
+/// The power-weighted mean of the wave numbers in the rings from `low` to `high`.
 double mean_wave_number(const std::vector<double>& power, const std::vector<double>& moment,
                         double low, double high) {
     double powers = 0, moments_sum = 0;

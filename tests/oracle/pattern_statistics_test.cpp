@@ -1,4 +1,4 @@
-// The statistics of patterns that can be computed by hand.
+// Statistics of patterns for which they can be computed by hand.
 #include "tests/oracle/pattern_statistics.h"
 
 #include <gtest/gtest.h>

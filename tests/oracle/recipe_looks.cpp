@@ -30,7 +30,7 @@ constexpr auto looks = std::to_array<Look>({
     {"leopard", 2, "b", regions_below, 4, {22, 31}, {94, 113}},
     {"leopard", 2, "b", peak_wavelength, 0, {9.2, 10}, {9.2, 10}},
 
-    // Stripes: wavelength 21 for diff1 = .04, 15 for .03.
+    // Stripes: the wavelength is 21 for diff1 = .04, and 15 for diff1 = .03.
     {"figure_3_4_random_stripes", 1, "b", peak_wavelength, 0, {20, 22}, {20, 22}},
     {"figure_3_4_random_stripes", 1, "b", area_below, .75, {.42, .58}, {.46, .54}},
     {"lionfish", 1, "b", peak_wavelength, 0, {20, 22}, {20, 22}},
@@ -60,7 +60,7 @@ constexpr auto looks = std::to_array<Look>({
     {"mixed_spots", 2, "a", mean_wavelength, 0, {2.7, 2.9}, {2.7, 2.9}},
     {"mixed_spots", 2, "a", area_below, 3.3, {.92, .96}, {.92, .96}},
 
-    // Spots of stage 1 as a lattice for stage 2.
+    // The spots of stage 1 are a lattice for stage 2.
     {"small_spots", 1, "b", regions_below, 4, {14, 17}, {55, 63}},
     {"small_spots", 1, "b", area_below, 4, {.25, .285}, {.25, .28}},
     {"small_spots", 2, "b", regions_below, 4, {14, 17}, {55, 63}},
@@ -81,8 +81,8 @@ constexpr auto looks = std::to_array<Look>({
     {"broken_lines", 2, "b", regions_below, 4, {18, 36}, {95, 135}},
     {"broken_lines", 2, "b", peak_wavelength, 0, {8, 8.9}, {8, 8.8}},
 
-    // Squirrel: three pairs of straight stripes and a row of spots between them; on 128 × 128 the
-    // printed noise breaks the stripes.
+    // Squirrel: three pairs of straight stripes and a row of spots between them. On 128 × 128,
+    // noise of the printed strength breaks the stripes.
     {"squirrel", 1, "b", anisotropy, 0, {.96, 1}, {.4, .75}},
     {"squirrel", 1, "b", regions_below, .75, {3, 3}, {2, 7}},
     {"squirrel", 2, "b", regions_below, 3, {12, 18}, {45, 60}},

@@ -1,4 +1,4 @@
-// Numbers for the looks of the recipes of Turk's thesis.
+// Numbers that the patterns of the recipes in Turk's thesis must have.
 //
 // They were found for every printed recipe with an independent program (double precision, other
 // random numbers, 64 × 64 and 128 × 128, several seeds). If only a description is known, the range
@@ -14,9 +14,9 @@ enum class Measure {
     regions_below,  ///< Connected regions with values below `level`.
     regions_above,  ///< Connected regions with values above `level`.
     bumps,          ///< Connected regions above the middle of the smallest and largest value.
-    area_below,     ///< Part of the cells with values below `level`.
+    area_below,     ///< Fraction of the cells with values below `level`.
     area_above,
-    peak_wavelength,  ///< In cells; from here on `level` is not used.
+    peak_wavelength,  ///< In cells. Like all properties below, it ignores `level`.
     mean_wavelength,
     anisotropy,
     deviation,

@@ -79,7 +79,7 @@ TEST_P(RecipeTest, LooksAsItShould) {
     }
 }
 
-/// Solvers that should give the pattern of Euler's method.
+/// These other solvers should give the pattern of Euler's method.
 TEST_P(RecipeTest, LooksTheSameWithOtherSolvers) {
     if (!is_available("jit")) GTEST_SKIP() << "without native code this would take minutes";
     for (const char* solver : {"symplectic", "rk2", "rk4", "rk23", "rk45", "rkl1", "rkl2"}) {
@@ -91,7 +91,7 @@ TEST_P(RecipeTest, LooksTheSameWithOtherSolvers) {
 INSTANTIATE_TEST_SUITE_P(Scripts, RecipeTest, testing::ValuesIn(scripts()),
                          [](const auto& parameter) { return parameter.param; });
 
-/// With such small noise the front from the right border arrives before the noise makes stripes.
+/// With so little noise, the front from the right border arrives before the noise makes stripes.
 TEST(Squirrel, OnALargerGridNeedsLessNoise) {
     Overrides overrides;
     overrides.grid = {128, 128};
@@ -105,7 +105,7 @@ TEST(Squirrel, OnALargerGridNeedsLessNoise) {
     EXPECT_GT(summarise_spectrum(stripes).anisotropy, 0.94);
 }
 
-/// Figure 3.2: seven valleys in a row of 60 cells; the theory's wavelength is 2π √(Db / s) = 8.9.
+/// Figure 3.2: seven valleys in a row of 60 cells. The theory's wavelength is 2π √(Db / s) = 8.9.
 TEST(Figure32, HasSevenValleys) {
     for (std::uint32_t seed = 1; seed <= 3; ++seed) {
         Overrides overrides;

@@ -44,7 +44,7 @@ void TestRun::finish(std::uint32_t stage) {
     const auto end = simulation_->advance_stage(stage, last, control, [] {});
     check(end ? Result<void>{} : Result<void>(tl::unexpected(end.error())));
     // Recipes and systems of the library get no remark, except that a pattern dies out on a plane
-    // smaller than its own.
+    // smaller than the plane for which it was written.
     const std::string remark = ok() ? remark_on(*simulation_, stage) : "";
     if (remark.find("dying out") != std::string::npos) return;
     if (is_cut_short_ && remark.find("still growing") != std::string::npos) return;

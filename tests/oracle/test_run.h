@@ -10,8 +10,8 @@
 
 namespace cascade {
 
-/// A script and its simulation. Errors of either, warnings of the run and remarks on its stages
-/// make the test fail.
+/// A script and its simulation. Errors of the script or the simulation, warnings of the run, and
+/// remarks on its stages make the test fail.
 class TestRun {
 public:
     TestRun(std::string name, std::string text, Overrides overrides, SimulationOptions options);
@@ -37,14 +37,14 @@ public:
 private:
     void check(const Result<void>& result);
 
-    bool is_cut_short_;     ///< The run takes fewer steps than its script says.
-    bool is_other_solver_;  ///< The run has another solver than its script says.
+    bool is_cut_short_;     ///< Whether the run takes fewer steps than its script says.
+    bool is_other_solver_;  ///< Whether the run has another solver than its script says.
     Script script_;
     std::unique_ptr<Simulation> simulation_;
     bool failed_ = false;
 };
 
-/// The text of a file of the source tree; fails the test if it cannot be read.
+/// The text of a file of the source tree. The test fails if the file cannot be read.
 std::string source_file(const std::string& path);
 
 /// Native code if Cascade was built with it, otherwise the interpreter, on one thread.

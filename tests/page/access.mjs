@@ -1,6 +1,7 @@
-// The page can be used without sight and with a keyboard alone: axe-core finds no serious problem in its states, with
-// `cascade view` and in an exported page, on a wide and on a narrow screen. Arguments: the browser, the program, and
-// the text of axe-core. spots.cascade, and spots.html if there is an engine, are in the current folder.
+// The page can be used without sight and with a keyboard alone: axe-core finds no serious problem
+// in any state of the page, with `cascade view` and in an exported page, on a wide and on a narrow
+// screen. Arguments: the browser, the program, and the text of axe-core. spots.cascade, and
+// spots.html if there is an engine, are in the current folder.
 import { existsSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";

@@ -5,13 +5,14 @@ import { existsSync, readFileSync, writeFileSync } from "node:fs";
 
 export function expect(condition, message) { if (!condition) throw new Error(message); }
 
-/// An expression in the page: whether the pattern grows.
+/// A JavaScript expression that is true in the page while the pattern grows.
 export const is_growing = `document.getElementById("run").ariaLabel === "Pause"`;
 
 const most_minutes = 12;
 
-/// Up to how many milliseconds a test waits before each command, at random, while the page is up to 6 times as slow.
-/// Whoever changes these tests sets it, for example to 1500, to find steps that depend on how fast things happen.
+/// The longest random delay before each command of a test, in milliseconds. If it is not 0, the
+/// page is also up to 6 times as slow. Whoever changes these tests sets DELAY, for example to 1500,
+/// to find steps that depend on how fast things happen.
 const longest_delay = Number(process.env.DELAY ?? 0);
 
 /// Limits a test to twelve minutes, many times as long as it takes on an idle machine. The returned function ends the
@@ -57,7 +58,7 @@ export class Browser {
             "--remote-debugging-pipe", `--user-data-dir=${profile}`, ...options, "about:blank",
         ], { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"], detached: true });
         browser.waiting = new Map();
-        browser.heard = [];  // Messages in the page's console, and violations of its policy.
+        browser.heard = [];  // Messages in the page's console, and violations of its content security policy.
         let rest = "";
         browser.shell.stdio[4].setEncoding("utf8").on("data", (part) => {
             const parts = (rest + part).split("\0");
@@ -75,8 +76,9 @@ export class Browser {
         return browser;
     }
 
-    /// What pages find in localStorage while nothing else was stored. Nothing is stored here, because Chromium may give a
-    /// document that has just begun an empty localStorage, as if it were still the previous document.
+    /// Sets what pages find in localStorage for keys that were not stored. Nothing is stored here,
+    /// because Chromium may give a document that has just begun an empty localStorage, as if it
+    /// were still the previous document.
     async begin_with(values) {
         const { identifier } = this.beginning ?? {};
         if (identifier) await this.call("Page.removeScriptToEvaluateOnNewDocument", { identifier });
@@ -111,7 +113,7 @@ export class Browser {
         return new Promise((resolve, reject) => this.waiting.set(id, { resolve, reject }));
     }
 
-    /// The value of an expression in the page.
+    /// Evaluates an expression in the page.
     async evaluate(expression) {
         const { result, exceptionDetails } = await this.call("Runtime.evaluate",
             { expression, awaitPromise: true, returnByValue: true });
@@ -119,7 +121,8 @@ export class Browser {
         return result.value;
     }
 
-    /// Waits until a function gives something, and returns it. `otherwise` makes the message if this never happens.
+    /// Waits until a function returns something true, and returns it. `otherwise` makes the message
+    /// if this never happens.
     async eventually(happens, otherwise, seconds = 240) {
         for (const end = Date.now() + 1000 * seconds; Date.now() < end;) {
             const found = await happens();
@@ -150,7 +153,7 @@ export class Browser {
         await this.until(`!window.is_old && document.readyState === "complete"`);
     }
 
-    /// Clicks what a selector finds, as soon as it is there and can be clicked.
+    /// Clicks the element that a selector finds, as soon as the element is there and enabled.
     async click(selector) {
         await this.until(`((found) => found && !found.disabled && (found.click(), true))(document.querySelector(${JSON.stringify(selector)}))`);
     }
@@ -165,10 +168,10 @@ export class Browser {
         await this.until(`${script} !== "${before}" && document.getElementById("place").textContent.startsWith("step 0")`);
     }
 
-    /// Lets the pattern grow, unless it does so already.
+    /// Lets the pattern grow, unless it grows already.
     async grow() { await this.evaluate(`${is_growing} || document.getElementById("run").click()`); }
 
-    /// The bytes of a file that is being saved.
+    /// Waits until a file is saved, and returns its bytes.
     async file(path) {
         await this.eventually(() => existsSync(path), async () => `${path} is not saved: ${await this.evaluate(`document.getElementById("notice").textContent`)}`);
         return readFileSync(path);
@@ -205,7 +208,8 @@ export class Browser {
 
     async wheel(x, y, deltaY) { await this.call("Input.dispatchMouseEvent", { type: "mouseWheel", x, y, deltaX: 0, deltaY }); }
 
-    /// Moves fingers together through `moments`, each a list of positions [x, y].
+    /// Moves fingers together through `moments`. Each moment is a list of the fingers' positions
+    /// [x, y].
     async touch(...moments) {
         for (const [k, places] of moments.entries()) {
             const touchPoints = places.map(([x, y], id) => ({ x, y, id }));

@@ -1,6 +1,7 @@
-// Every control and every key of the page does what it says, on the page of `cascade view` and on a page that carries
-// its engine. A control that no step below operates is an error. Arguments: the browser, the program and, for the second,
-// the exported page. The run is paused, so that what is seen changes only by what is tried.
+// Every control and every key of the page does what it says, on the page of `cascade view` and on a
+// page that carries its engine. A control that no step below operates is an error. Arguments: the
+// browser, the program and, to test an exported page, that page. The run is paused, so that the
+// picture changes only by the tested actions.
 import { rmSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
@@ -28,7 +29,7 @@ const volume = `domain { grid: 12, 10, 8 }\nsystem still { u: x * y + z; u' = 0 
 const tube = `domain { grid: 48, 16; surface: cos(2*pi*sx), sin(2*pi*sx), 2 * sy }\nsystem still { u: sx; u' = 0 }\nstage one: still { iterations: 1 }\n`;
 
 /// Selectors of the controls that were operated, and the keys that were pressed, as the help names them.
-const operated = ["#lesson summary", "#point"], pressed = ["k"];  // By lesson.mjs and points.mjs, on both pages.
+const operated = ["#lesson summary", "#point"], pressed = ["k"];  // Operated by lesson.mjs and points.mjs.
 
 const found = (selector) => `document.querySelector(${JSON.stringify(selector)})`;
 async function click(selector) {
@@ -45,7 +46,8 @@ async function choose(selector, value) {
     }`);
 }
 const codes = { "+": 187, "-": 189, "0": 48, F2: 113, F12: 123, PageUp: 33, PageDown: 34, h: 72, m: 77, n: 78, p: 80, "?": 191 };
-/// Presses a key with the text not in use. `name` is its name in the help.
+/// Presses a key. Unless `in_text`, the text first loses the focus. `name` is the key's name in the
+/// help.
 async function press(key, name = key, modifiers = 0, in_text = false) {
     pressed.push(name);
     if (!in_text) await browser.evaluate("document.activeElement.blur()");
@@ -55,7 +57,7 @@ async function press(key, name = key, modifiers = 0, in_text = false) {
     for (const type of ["keyDown", "keyUp"]) await browser.call("Input.dispatchKeyEvent", { type, key, text, modifiers, windowsVirtualKeyCode: code });
 }
 
-/// The picture of the plane, as one number.
+/// A hash of the picture of the plane.
 const seen = () => browser.evaluate(`(() => {
     const canvas = document.getElementById("pattern"), copy = document.createElement("canvas");
     [copy.width, copy.height] = [canvas.width, canvas.height];
@@ -109,7 +111,7 @@ async function change_numbers() {
     await until("0.05");
     await choose(slider, "0.06");
     await until("0.06");
-    // What was changed is there only when the engine has shown it.
+    // A change can be undone only after the engine has shown it.
     await browser.until(`!document.getElementById("undo").disabled`);
     for (const [back, again] of [[() => click("#undo"), () => click("#redo")], [() => press("z", "Ctrl+Z", 2), () => press("Z", "Ctrl+Shift+Z", 10)]]) {
         await back();
@@ -237,7 +239,7 @@ async function help() {
 /// Keys in the text, the correction of a message, and the button after a failure.
 async function write() {
     await browser.evaluate(`${in_editor(".cm-content")}.focus()`);
-    // The caret is at the end; the name that is shown is three signs before it.
+    // The caret is at the end. It goes three characters back, onto a name.
     await type(spots, 2);
     for (let k = 0; k < 3; ++k) await browser.press("ArrowLeft");
     await browser.until(`${in_editor(".cm-used")} !== null`);
@@ -304,7 +306,7 @@ async function choose_a_system() {
     await browser.until(`!document.getElementById("library").open && ${in_editor(".cm-content")}.textContent.includes("burgers")`);
 }
 
-/// The head of the page is one line above the stages on a phone, and nothing is too wide.
+/// On a phone, the head of the page is one line above the stages, and nothing is too wide.
 async function hold_a_phone() {
     await browser.call("Emulation.setDeviceMetricsOverride", { width: 375, height: 812, deviceScaleFactor: 1, mobile: true });
     const of = (id) => `document.getElementById("${id}").getBoundingClientRect()`;
@@ -313,7 +315,7 @@ async function hold_a_phone() {
     expect(width <= 375, `on a phone the page is ${width} pixels wide`);
 }
 
-/// Controls and keys of the page that nothing above has operated.
+/// Fails if nothing above has operated a control or pressed a key that the help names.
 async function expect_all() {
     const left = await browser.evaluate(`[...document.querySelectorAll("button, select, input, summary, canvas[tabindex]")]
         .filter((control) => !${JSON.stringify(operated)}.some((selector) => control.matches(selector)))

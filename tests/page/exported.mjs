@@ -22,7 +22,8 @@ const pixels = (image) => browser.evaluate(`(async () => {
     return [image.width, image.height, ...copy.getContext("2d").getImageData(0, 0, image.width, image.height).data];
 })()`);
 
-/// The light is refined during some pictures, and the program's light is more exact.
+/// Waits until the canvas is like a picture of `cascade run`. The page refines its light during
+/// some pictures, and the light of `cascade run` is more exact.
 async function expect_likeness(name, most = 2.5) {
     let mean;
     const is_like = async () => {
@@ -109,7 +110,7 @@ try {
     await browser.until(is_over);
     await expect_the_picture("a slice of a volume", "volume");
 
-    // The page contains the cells of a model and draws it as the program does.
+    // The page contains the cells of a model and draws the model like `cascade run`.
     await browser.call("Emulation.setDeviceMetricsOverride", { width: 1280, height: 800, deviceScaleFactor: 1, mobile: false });
     await open("ball.html");
     await browser.until(is_over);
@@ -119,7 +120,7 @@ try {
     writeFileSync("exported_ball.png", await browser.screenshot());
     const shown = await browser.evaluate(`!document.getElementById("solid").hidden && document.getElementById("place").textContent`);
     expect(shown.startsWith?.("step 80"), `the model shows ${shown}`);
-    // A linked script can use these cells if it has the same model, and no other cells.
+    // A linked script can use these cells if it has the same model. No other model can be used.
     const shown_at_end = async (script) => {
         await open("ball.html", packed(script));
         await browser.until(`${is_over} || document.getElementById("notice")?.textContent`);
@@ -131,7 +132,7 @@ try {
     const other = await shown_at_end(of_model('"other.off"'));
     expect(other.includes("other.off"), `with another model it shows ${other}`);
 
-    // Cells that crawl. The light between them is less exact than in pictures.
+    // Cells that crawl. The light between them is less exact than in pictures of `cascade run`.
     await open("crawling.html");
     await browser.until(is_over);
     await enlarge();

@@ -98,7 +98,7 @@ async function look_closely() {
     await point(12, 5);
     await browser.until(`document.getElementById("pointed").textContent === "cell 12, 5: 2.604"`);
 
-    // Lines are thinner than cells: the middle of the cell from 5 to 5.21 is on a line at 5.104, its neighbours are not.
+    // Lines are thinner than cells: only the cell with values from 5 to 5.21 has a line, at 5.104, in its middle.
     const before = [await pixel(23, 16), await pixel(24, 16), await pixel(25, 16)];
     await browser.evaluate(`document.getElementById("look").open = true`);
     await browser.press("Escape");
@@ -117,7 +117,7 @@ async function look_closely() {
     await choose("every", "");
     await browser.eventually(async () => (await pixel(24, 16))[3] === 48, () => "the canvas stays large without lines");
 
-    // A slope that rises to the right faces the sun at the left; a slope that falls does not.
+    // A slope that rises to the right faces the sun at the left. A slope that falls does not.
     await choose("relief", "1", "input");
     let grey;
     await browser.eventually(async () => ([grey] = await pixel(24, 16))[0] > before[1][0] + 5, () => `relief makes ${before[1][0]} ${grey} where it faces the sun`);
@@ -140,7 +140,7 @@ async function look_closely() {
     await browser.evaluate(`document.getElementById("look").open = false`);
 }
 
-/// The requests of this kind since the page was opened.
+/// The requests of this kind that the page has sent since it was opened.
 const asked = (what) => browser.evaluate(`(window.asked ?? []).filter((text) => text.includes('"do":"${what}"')).length`);
 
 async function measure() {
@@ -168,7 +168,7 @@ async function measure() {
     const box_of_pattern = () => browser.evaluate(`(({ x, y, width, height }) => [x, y, width, height])(document.getElementById("pattern").getBoundingClientRect())`);
     let box = await box_of_pattern();
     const at = (column, row) => [box[0] + (column + 0.5) / 48 * box[2], box[1] + (row + 0.5) / 32 * box[3]];
-    // The pattern moves while the panel grows, so that a press may meet another cell.
+    // The pattern moves while the panel grows, so a press may hit another cell.
     const chosen = `!document.getElementById("probe").hidden && ${caption("probe")}.startsWith("cell 24, 14:")`;
     await browser.eventually(async () => {
         box = await box_of_pattern();
@@ -234,7 +234,7 @@ async function recover_from_a_blow_up() {
     await until_text_is_read();
     await click("run");
     await browser.until(`document.getElementById("failure").textContent.includes("u is not finite any more at column")`);
-    // The marked cell is that of the message.
+    // The marked cell is the one that the message names.
     const [column, row] = (await browser.evaluate(`document.getElementById("failure").textContent`)).match(/column (\d+), row (\d+)/).slice(1).map(Number);
     const away = await browser.evaluate(`(() => {
         const middle = ({ x, y, width, height }) => [x + width / 2, y + height / 2, width, height];
@@ -278,7 +278,7 @@ async function lose_the_connection() {
     const press = (column, row) => browser.drag(box[0] + (column + 0.5) / 48 * box[2], box[1] + (row + 0.5) / 32 * box[3], box[0] + (column + 0.5) / 48 * box[2], box[1] + (row + 0.5) / 32 * box[3]);
     const slide = (value) => browser.evaluate(`{ const input = document.querySelector("#controls [type=range]"); input.value = "${value}"; input.dispatchEvent(new Event("input")); input.dispatchEvent(new Event("change")); }`);
 
-    // Lost answers: the requests do not take effect again.
+    // Requests whose answers were lost are sent again, but do not take effect twice.
     await browser.evaluate(`window.sockets.at(-1).onmessage = () => {}, window.is_cut = true`);
     await slide("0.03");
     await press(10, 10);
@@ -290,14 +290,14 @@ async function lose_the_connection() {
     await press(20, 20);
     await type_script(text.replace("kill: 0.06", "kill: 0.061"));
     const tries = await browser.evaluate(`window.sockets.length`);
-    await browser.until(`window.sockets.length > ${tries}`);  // One more fails.
+    await browser.until(`window.sockets.length > ${tries}`);  // Another attempt fails.
     expect(await browser.evaluate(`document.getElementById("text").ariaBusy`) === "true", "the text was read without a connection");
     await browser.evaluate(`window.is_cut = false`);
     await browser.until(`window.sockets.at(-1).readyState === 1`);
     await until_text_is_read();
     await browser.until(`document.querySelector("#controls .slider input").value === "0.05" && document.getElementById("notice").textContent === ""`);
     expect((await browser.evaluate(`${in_editor(".cm-content")}.textContent`)).includes("0.061"), "the text that was typed is lost");
-    // Strokes are answered one after the other.
+    // Several strokes can be waiting, and each is answered after the one before it.
     let log;
     const are_logged = async () => count(log = await log_of_session(), "\npaint ") === await browser.evaluate(`window.strokes.size`);
     await browser.eventually(are_logged, async () => `not all of ${await browser.evaluate(`window.strokes.size`)} strokes are in ${log}`);
@@ -390,7 +390,7 @@ async function save_files() {
     await browser.restart();
     expect(String(await file("spots.cascade", "script")) === text, "the script is another one");
 
-    // A saved picture is grown again from the session inside it, byte for byte.
+    // `cascade` grows a saved picture again, byte for byte, from the session inside the picture.
     await choose("palette", "leopard");
     await click("step");
     await until_steps("1");

@@ -1,6 +1,7 @@
-// Exercises and languages, on the page of `cascade view` and on a page that carries its engine: locked lines stay, the
-// hint opens, goals are measured and said to be met, and labels are in the language of the browser or in a chosen one.
-// Arguments: the browser, the program, a script and, for the second, the exported page.
+// Exercises and languages, on the page of `cascade view` and on a page that carries its engine:
+// locked lines stay, the hint opens, goals are measured, goals that are met are reported, and
+// labels are in the language of the browser or in a chosen language. Arguments: the browser, the
+// program, a script and, to test an exported page, that page.
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
@@ -57,7 +58,7 @@ async function solve() {
     await browser.evaluate(`document.querySelector("#lesson summary").click()`);
     expect((await browser.evaluate(of_lesson("details p"))).startsWith("Without the kill"), "the hint is missing");
 
-    // What is locked stays, whatever is typed, deleted or pasted over it.
+    // Locked lines stay, whatever is typed, deleted or pasted over them.
     const before = await browser.evaluate(text);
     await put_caret(locked_words);
     await browser.call("Input.insertText", { text: "9" });
@@ -68,7 +69,8 @@ async function solve() {
     await browser.call("Input.insertText", { text: "nothing" });
     expect(await browser.evaluate(text) === before, `the locked text became ${await browser.evaluate(text)}`);
 
-    // What is open can be typed; it is measured again, and the goals are met at the end.
+    // Open lines can be edited. The pattern is then measured again, and the goals are met at the
+    // end.
     await put_caret("0.3 ");
     for (let k = 0; k < 3; ++k) await browser.call("Input.dispatchKeyEvent", { type: "keyDown", key: "Delete", windowsVirtualKeyCode: 46 });
     await browser.call("Input.insertText", { text: "0.06" });
@@ -95,7 +97,7 @@ const said = `(() => {
     return found;
 })()`;
 
-/// The same words in several languages.
+/// Words that are the same in several languages.
 const same = /^(Cascade|Ctrl|Escape|Home|Page Up|Page Down|Pause|Link|script|session|Script|Relief|relief|film|Film|Pattern|Parameter|Ctrl\+Shift\+Z|Ctrl\+Z|angle|images|now|.*:.*|of_.*|\d.*|x|y|z|[a-z]+ \d+)$/;
 
 async function translate() {
@@ -110,7 +112,7 @@ async function translate() {
         expect(await browser.evaluate(of_lesson("h2")) === of_title, `${tag}: the title is ${await browser.evaluate(of_lesson("h2"))}`);
         const left = (await browser.evaluate(said)).filter((words) => english.includes(words) && !same.test(words));
         expect(left.length === 0, `${tag}: it says in English: ${left.join(" | ")}`);
-        // What comes later is translated, too.
+        // Texts that appear later are translated, too.
         await browser.until(is_over);
         await browser.until(`!/^(step|now) /.test(document.getElementById("place").textContent)`);
         await browser.evaluate(`document.getElementById("help_button").click(); document.querySelector("#help form button").click()`);
@@ -123,7 +125,7 @@ async function translate() {
         await browser.call("Emulation.setDeviceMetricsOverride", { width: 1280, height: 800, deviceScaleFactor: 1, mobile: false });
         writeFileSync(`${tag.slice(0, 2)}${exported ? "_exported" : ""}.png`, await browser.screenshot());
     }
-    // A choice counts more than the browser, and stays.
+    // A chosen language has precedence over the language of the browser, and is remembered.
     const choose = (language) => browser.evaluate(`{ const choice = document.getElementById("language"); choice.value = "${language}"; choice.dispatchEvent(new Event("change")); }`);
     await choose("de");
     expect(await browser.evaluate(`document.getElementById("fit").textContent`) === "einpassen", "the chosen language is not used");

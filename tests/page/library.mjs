@@ -29,7 +29,7 @@ async function steer() {
     expect((found.Others?.length ?? 0) < 5, `without a group: ${found.Others}`);
     writeFileSync("groups.png", await browser.screenshot());
 
-    // Favourites come first, also when the page is opened again, and a second click takes them back.
+    // Favourites come first, also when the page is opened again, and a second click removes them.
     await browser.evaluate(`${of_card("Burgers", "like")}.click(), ${of_card("Fish", "like")}.click()`);
     expect((await groups()).Favourites?.join() === "Burgers,Fish", `the favourites are ${(await groups()).Favourites}`);
     expect(await browser.evaluate(`document.activeElement === ${of_card("Fish", "like")}`), "the focus is lost");
@@ -41,7 +41,7 @@ async function steer() {
     await browser.evaluate(`${of_card("Fish", "like")}.click()`);
     expect(!("Favourites" in await groups()), "an empty group is shown");
 
-    // Alike is what uses the same words.
+    // Systems that use the same words are alike.
     await search("brusselator");
     await browser.evaluate(`${of_card("Brusselator", "more")}.click()`);
     const alike = Object.values(await groups()).flat();
@@ -51,7 +51,7 @@ async function steer() {
     await search("");
     expect(Object.values(await groups()).flat().length > 50, "a search does not show all again");
 
-    // Enter takes the first one that is seen.
+    // Enter opens the first visible system.
     await search("burgers");
     await browser.evaluate(`document.querySelector("#library input").focus()`);
     await browser.press("Enter");

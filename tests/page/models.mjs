@@ -56,7 +56,7 @@ async function load() {
     expect(parts.length > 2 && parts.every((part, k) => k === 0 || part >= parts[k - 1]) && said.at(-1) === "", `while it prepares the model, it says ${said}`);
     writeFileSync("loaded.png", await browser.screenshot());
 
-    // By dropping a file: it replaces the domain, whatever comments contain.
+    // A dropped file replaces the domain, whatever the comments of the script contain.
     const of = (domain) => readFileSync("spots.cascade", "utf8").replace("domain { grid: 48, 32 }", domain);
     const cases = [
         ['domain { surface: sphere; cells: 500 }', 'domain { mesh: "b_c.off"; cells: 500 }'],

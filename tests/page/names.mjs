@@ -1,6 +1,6 @@
-// The names of the text on the page of `cascade view spots.cascade`: their uses, their declaration, renaming; and a text, a
-// number and a stroke that arrive just as a run ends. Arguments: the browser and the program; spots.cascade is in the
-// current folder. Screenshots are left there.
+// Names in the text on the page of `cascade view spots.cascade`: their uses, their declaration, and
+// renaming. A text, a number and a stroke may also arrive just as a run ends. Arguments: the
+// browser and the program; spots.cascade is in the current folder. Screenshots are left there.
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { Browser, ending, expect, is_growing, serve } from "./browser.mjs";
@@ -39,7 +39,8 @@ async function press_at(line, word, modifiers = 0) {
 }
 
 async function names() {
-    // The cursor on a name marks it wherever it means the same, here in the system and in a stage.
+    // If the cursor is on a name, all places where the name means the same are marked, here in the
+    // system and in a stage.
     await press_at(8, "feed");
     await browser.until(`${lines_of_uses} === "feed 6,feed 8,feed 9,feed 12"`);
     writeFileSync("uses.png", await browser.screenshot());
@@ -51,7 +52,8 @@ async function names() {
     await key("F12", 123);
     await browser.until(`${lines_of_uses}.startsWith("spots 3")`);
 
-    // F2 renames what the cursor is on; one undo takes it back. A name that would mean something else is refused.
+    // F2 renames the name at the cursor, and one undo restores it. A new name that already means
+    // something else is refused.
     const rename = async (name) => {
         await key("F2", 113);
         await browser.until(`${in_editor(".cm-new-name")} !== null && document.getElementById("editor").shadowRoot.activeElement?.matches(".cm-new-name")`);
@@ -74,13 +76,13 @@ async function names() {
     await browser.press("z", 2);
     await browser.until(`document.getElementById("text").ariaBusy === "false" && ${in_editor(".cm-content")}.innerText.includes("feed: 0.037 in")`);
 
-    // What the library declares is told, and not renamed.
+    // For a name that the library declares, the page says where it is declared.
     await browser.type_script("stage one: gray_scott { feed: 0.03; iterations: 20 }\n");
     await press_at(1, "feed", 2);
     await browser.until(`document.getElementById("notice").textContent.includes("'feed' is declared in")`);
 }
 
-/// The moment of the engine, whether or not the page has seen it.
+/// Asks the engine for its present moment, whether or not the page has seen this moment.
 const moment = () => browser.evaluate(`new Promise((resolve) => {
     const id = window.asked = (window.asked ?? 1e9) + 1;
     window.socket.addEventListener("message", function look({ data }) {
@@ -94,13 +96,15 @@ const moment = () => browser.evaluate(`new Promise((resolve) => {
 /// The first stage does not end by itself.
 const long = own.replace("iterations: 1500", "iterations: 100000000");
 
-/// Does something after the end that the page has not seen yet, and lets it see it then.
+/// Calls `change` after the run has ended but before the page sees the end, and then lets the page
+/// see it.
 async function at_the_end(change) {
     await browser.type_script(long);
     await browser.restart();
     await browser.grow();
     await browser.until(`${is_growing} && !document.getElementById("place").textContent.startsWith("step 0")`);
-    // From now on the page sees nothing, while the first stage is ended and the second one ends.
+    // From now on the page receives nothing. Meanwhile the first stage is ended by a command, and
+    // the second stage runs to its end.
     await browser.evaluate("window.is_held = true, window.release = undefined");
     await browser.until("window.release !== undefined");
     await browser.click("#next");

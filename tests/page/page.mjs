@@ -101,8 +101,8 @@ async function steer() {
     await browser.until(`${value} === "0.04" && !document.getElementById("undo").disabled`);
     const sliders = await browser.evaluate(`document.querySelectorAll("#controls [type=range]").length`);
     expect(sliders === 2, `${sliders} sliders instead of 2`);
-    // A pattern that had ended continues for as many steps as all stages have: once, or again if it had ended between
-    // two presses.
+    // After its end, a changed pattern continues for as many steps as all stages have. It does this
+    // once, or twice if it ended between two presses.
     await browser.eventually(async () => [2500, 4500, 6500].includes(await steps()) && browser.evaluate(is_over), async () => `it ends at step ${await steps()}`);
 
     // Moves are undone one by one, however quickly they follow each other.
@@ -197,7 +197,7 @@ async function steer() {
     const until_changed = async (wanted, how) => {
         await browser.eventually(async () => wanted(await changed_cells()), async () => `${how}: the cells ${(await changed_cells()).slice(0, 9).join(" ")} have changed`);
     };
-    // A fast pointer with events at three positions only leaves no gaps between discs.
+    // A fast pointer that sends only three events leaves no gaps between the discs.
     await browser.evaluate(`document.getElementById("amount").value = "5"`);
     await browser.drag(x + 0.1 * width, y + 0.2 * height, x + 0.9 * width, y + 0.8 * height);
     const unpainted = async () => {
@@ -251,13 +251,13 @@ async function steer() {
     expect((await changed_cells()).length === 0, "two fingers paint");
     await click("fit");
 
-    // Going to a stage starts it again, from the final values of the previous stage.
+    // Going to a stage starts this stage again, from the final values of the previous stage.
     await browser.evaluate(`document.querySelectorAll("#stages button")[1].click()`);
     await until_steps("0");
     await browser.evaluate(`document.querySelectorAll("#stages button")[0].click()`);
     await browser.until(`document.querySelectorAll("#stages progress")[1].value === 0`);
 
-    // Non-finite values stop the run with a message. It continues when the text is corrected.
+    // Non-finite values stop the run with a message. The run continues when the text is corrected.
     await type_script(text.replace("0.16 * lap(u)", "16 * lap(u)"));
     await grow();
     await browser.until(`document.getElementById("failure").textContent.includes("finite")`);
@@ -271,7 +271,7 @@ async function steer() {
     await type_script(text);
     await browser.until(`document.querySelectorAll("#stages li").length === 2`);
 
-    // The button pauses the run. The next stage starts at this step, which the log contains.
+    // The button pauses the run. The next stage starts at the reached step, which the log contains.
     await type_script(text.replace("iterations: 1500", "iterations: 100000000"));
     await grow();
     await browser.until(`${is_growing} && !document.getElementById("place").textContent.startsWith("step 0")`);
@@ -403,7 +403,7 @@ async function steer() {
     await browser.until(`!(${is_growing})`);
     await click("run");
     await until_steps("8,000");
-    // A stage that is typed after the end is run.
+    // A stage that is typed after the end of the run is run, too.
     await type_script("domain { grid: 64, 64 }\nstage slow: turing_spots { iterations: 4000 }\nstage after: turing_spots { a: a; b: b; iterations: 300 }\n");
     await browser.until(`document.querySelectorAll("#stages button")[1]?.hasAttribute("aria-current")`);
     await until_steps("300");

@@ -14,8 +14,9 @@ const view = `document.getElementById("editor").shadowRoot.querySelector(".cm-co
 const text = `[...${view}.querySelectorAll(".cm-line")].map((line) => line.textContent).join("\\n")`;
 const click = (id) => browser.click(`#${id}`);
 
-/// Drags the pointer over a canvas; both ends are pixels from its middle. Waits until the page finds the pattern under
-/// the first end, because the canvas may still move, and its surface may not be there yet.
+/// Drags the pointer over a canvas. Both ends are given in pixels from the middle of the canvas.
+/// Waits until the page finds the pattern under the first end, because the canvas may still move,
+/// and its surface may not be there yet.
 async function drag_on(id, [right, down], [to_right, to_down] = [right, down]) {
     const find_middle = `(({ x, y, width, height }) => [x + width / 2, y + height / 2])(document.getElementById("${id}").getBoundingClientRect())`;
     const [x, y] = await browser.eventually(async () => {
@@ -26,13 +27,13 @@ async function drag_on(id, [right, down], [to_right, to_down] = [right, down]) {
     await browser.drag(x + right, y + down, x + to_right, y + to_down);
 }
 
-/// Types a script whose caret is at the '|', and waits until it is read.
+/// Types a script, puts the caret where the '|' was, and waits until the page has read the script.
 async function type(with_caret) {
     const [before, after] = with_caret.split("|");
     await browser.type_script(before + after);
     for (let k = 0; k < after.length; ++k) await browser.press("ArrowLeft");
 }
-/// The text between the two ends of what was typed.
+/// The text that the page has inserted at the "|" of `with_caret`.
 async function written(with_caret) {
     const [before, after] = with_caret.split("|"), now = await browser.evaluate(text);
     expect(now.startsWith(before) && now.endsWith(after), `of ${with_caret} became ${now}`);
@@ -49,7 +50,7 @@ async function write_on_a_model() {
     await click("point");
     expect(await browser.evaluate(`document.getElementById("point").ariaPressed`) === "true", "the button does not stay pressed");
 
-    // Without a caret there is no place for it.
+    // Without a caret, the page does not know where to write a position.
     await drag_on("solid", [0, 0]);
     await browser.until(`document.getElementById("notice").textContent.startsWith("Put the caret")`);
 
@@ -58,16 +59,16 @@ async function write_on_a_model() {
     await drag_on("solid", [0, 0]);
     const front = numbers(await written(at));
     expect(front.length === 3 && on_the_ball(front), `a click in the middle is ${front}`);
-    // The usual view comes from 30 degrees around and 25 above.
+    // By default, the camera is 30 degrees around the model and 25 degrees above it.
     const seen_from = [Math.sin(Math.PI / 6) * Math.cos(25 * Math.PI / 180), Math.sin(25 * Math.PI / 180), Math.cos(Math.PI / 6) * Math.cos(25 * Math.PI / 180)];
     expect(front.every((part, k) => Math.abs(part - 0.5 - 0.5 * seen_from[k]) < 0.03), `the middle is ${front}`);
-    // The next one follows after a comma.
+    // A second position is written after a comma.
     await drag_on("solid", [40, 0]);
     const two = numbers(await written(at));
     expect(two.length === 6 && on_the_ball(two.slice(3)) && two[3] !== two[0], `two clicks are ${two}`);
     await browser.until(`document.getElementById("text").ariaBusy === "false" && document.getElementById("messages").textContent === ""`);
 
-    // Values of keys are selected, so that they are typed at once.
+    // The value of a new key is selected, so that typing replaces it.
     at = still("k: keys(|, 0.1)");
     await type(at);
     await drag_on("solid", [0, 0]);
@@ -77,7 +78,7 @@ async function write_on_a_model() {
     expect(numbers(await written(at)).length === 8, `two keys are ${await written(at)}`);
     await browser.until(`document.getElementById("text").ariaBusy === "false" && document.getElementById("messages").textContent === ""`);
 
-    // A drag is a direction along the surface, as it is seen.
+    // Dragging writes the direction along the surface in which the pointer moves on the screen.
     at = still("k: along(keys(|))");
     await type(at);
     await drag_on("solid", [0, 0], [60, 0]);
@@ -93,7 +94,7 @@ async function write_on_a_model() {
     const upward = numbers(await written(at));
     expect(upward.length === 3 && upward[1] > 0.85, `upwards is ${upward}`);
 
-    // Outside of brackets it is an expression.
+    // Outside of brackets, a whole expression is written.
     for (const [far, wanted] of [[0, /^distance\([\d., ]+\)$/], [50, /^along\(keys\([-\d., ]+\)\)$/]]) {
         at = still("k: |");
         await type(at);
@@ -102,7 +103,7 @@ async function write_on_a_model() {
         await browser.until(`document.getElementById("text").ariaBusy === "false" && document.getElementById("messages").textContent === ""`);
     }
 
-    // Beside the model the pointer turns it as before, and nothing is painted nor written.
+    // Beside the model the pointer turns it as before, and neither paints nor writes.
     const before = await browser.evaluate(text);
     const { left, top } = await browser.evaluate(`(({ left, top }) => ({ left, top }))(document.getElementById("solid").getBoundingClientRect())`);
     await browser.drag(left + 5, top + 5, left + 60, top + 5);

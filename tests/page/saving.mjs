@@ -54,24 +54,25 @@ async function save() {
     const run = spawnSync(program, ["run", "box.cascade", "--palette", "zebra", "-o", "box.glb", "--quiet"], { encoding: "utf8" });
     expect(run.status === 0 && model.equals(readFileSync("box.glb")), `the model is not that of cascade run: ${run.stderr}`);
 
-    // Maps: the model with texture coordinates and its images, and these images beside it.
+    // The ZIP of maps holds the model with texture coordinates and images, and the same images as
+    // files.
     const maps = unzipped(await saved("maps", "box_maps.zip")), names = Object.keys(maps);
     expect(names.includes("box.glb") && names.some((name) => name.endsWith(".png")) && names.length >= 2, `the maps are ${names}`);
     const mapped = document_of(maps["box.glb"]);
     expect(mapped.images.length > 0 && "TEXCOORD_0" in mapped.meshes[0].primitives[0].attributes, "the model of the maps has none");
 
-    // A plane is a rectangle with its maps, which leave out what is outside of the mask.
+    // A plane is saved as a rectangle with maps that are transparent outside of the mask.
     await show("colours");
     const plane = document_of(await saved("model", "box.glb"));
     expect(plane.images.length > 0 && plane.materials[0].alphaMode !== undefined, `a plane is ${JSON.stringify(plane.materials)}`);
     expect("box.glb" in unzipped(await saved("maps", "box_maps.zip")), "the maps of a plane have no model");
 
-    // Cells that crawl are copies of their shapes, and what a reader has to know is told.
+    // Crawling cells are saved as instances of their shapes.
     await show("crawling");
     const cells = document_of(await saved("model", "box.glb"));
     expect(cells.extensionsUsed?.includes("EXT_mesh_gpu_instancing"), `cells are saved as ${cells.extensionsUsed}`);
 
-    // What has no model or maps is told in one message.
+    // If something cannot be saved as a model or maps, one message says so.
     await show("hole");
     await click("model");
     await browser.until(`${notice}.startsWith("a surface given by formulas cannot be written as a model")`);

@@ -27,7 +27,7 @@ const browser = await Browser.start(process.argv[2], join(process.cwd(), "profil
 const end = ending(browser);
 
 const open = (page) => browser.open(pathToFileURL("site/").href + page);
-/// The exported page has the script of the link, and its pattern grows.
+/// Waits until the exported page has the script of the link and its pattern grows.
 async function expect_growth(words) {
     await browser.until(`document.querySelectorAll("#stages li").length > 0`);
     await browser.until(`[...document.querySelectorAll("#stages progress")].some(({ value }) => value > 0)`);
@@ -35,7 +35,7 @@ async function expect_growth(words) {
     expect(text.includes(words), `the script is ${text}`);
 }
 
-/// Problems that axe-core calls serious.
+/// Fails if axe-core finds a serious problem.
 async function expect_access(name) {
     if (!process.argv[3]) return;
     await browser.evaluate(readFileSync(process.argv[3], "utf8"));

@@ -19,7 +19,8 @@ const box = () => browser.evaluate(`(({ x, y, width, height }) => [x, y, width, 
 const sides = () => browser.evaluate(`(({ width, height }) => [width, height])(document.getElementById("pattern"))`);
 const choose = (id, value, kind = "change") => browser.evaluate(`{ const field = document.getElementById("${id}"); field.value = "${value}"; field.dispatchEvent(new Event("${kind}")); }`);
 
-/// How far the canvas is from a picture, as the mean and the largest difference of levels on white.
+/// The mean and the largest difference between the levels of the canvas and of a picture, both on
+/// white.
 const difference = (name) => browser.evaluate(`(async () => {
     const wanted = new Image();
     await new Promise((resolve) => { wanted.onload = resolve; wanted.src = "data:image/png;base64,${readFileSync(name).toString("base64")}"; });
@@ -35,7 +36,8 @@ const difference = (name) => browser.evaluate(`(async () => {
     return [away.reduce((sum, level) => sum + level, 0) / away.length, away.reduce((most, level) => Math.max(most, level), 0)];
 })()`);
 
-/// Pictures hold the mean of four points for each pixel, in linear light, and the page one, so that edges differ a bit.
+/// A pixel of a picture is the mean of four points in linear light. A pixel of the page is one
+/// point, so edges differ a bit.
 async function until_smooth(name, how, is_wanted = (mean) => mean < 1) {
     let drawn, found;
     await browser.eventually(async () => {
@@ -67,12 +69,14 @@ async function look(name, address, stages, how) {
     const mean = await until_smooth(name, how);
     writeFileSync(`smooth_${how}.png`, await browser.screenshot());
 
-    // Squares of one pixel instead, which the picture of cells has, are far from that.
+    // With the option `squares`, the page shows the picture of cells, in which each cell is a
+    // square.
     await click("squares");
     await until_squares(columns, `${how}: squares`);
     await click("squares");
 
-    // Zoomed in to single cells they are squares, too, and zoomed out they are smooth again.
+    // If the view is zoomed to single cells, cells are squares, too. After zooming out, planes are
+    // smooth again.
     const [x, y, width, height] = await box();
     await browser.wheel(x + width / 2, y + height / 2, -10000);
     await browser.until(`document.getElementById("pattern").getBoundingClientRect().width > ${4 * width}`);

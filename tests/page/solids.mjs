@@ -13,7 +13,8 @@ const end = ending(browser, cascade);
 const click = (id) => browser.click(`#${id}`);
 const canvas = `document.getElementById("solid")`;
 
-/// The mean difference of levels between a canvas and a picture, and the part of levels that differ by more than 24.
+/// The mean difference of levels between a canvas and a picture, and the fraction of levels that
+/// differ by more than 24.
 const difference = (id, name) => browser.evaluate(`(async () => {
     const wanted = new Image();
     await new Promise((resolve) => { wanted.onload = resolve; wanted.src = "data:image/png;base64,${readFileSync(`${name}.png`).toString("base64")}"; });
@@ -45,7 +46,7 @@ async function type_script(name) {
 
 const point = (x, y) => browser.call("Input.dispatchMouseEvent", { type: "mouseMoved", x, y });
 const pointed = `document.getElementById("pointed").textContent`;
-/// The cell under a pointer and its value.
+/// The cell under a pointer, and its value.
 async function cell_at(x, y) {
     await point(x, y);
     const [, cell, value] = (await browser.evaluate(pointed)).match(/cell ([\d, ]+): ([-\d.e]+)/) ?? [];
@@ -131,7 +132,8 @@ async function steer() {
     await browser.eventually(async () => (flat = await difference("pattern", "flat"))[0] <= 0.5 && flat[1] === 0, () => `the plane differs by ${flat}`);
     await click("flat");
 
-    // Cells that crawl on a model and on a plane. The light between them is less exact than in pictures.
+    // Cells that crawl on a model and on a plane. The light between them is less exact than in
+    // pictures of `cascade run`.
     await type_script("crawling.cascade");
     await browser.until(`document.getElementById("place").textContent === "step 0 · 60 cells"`);
     const count = `Number(document.getElementById("place").textContent.match(/(\\d+) cells/)[1])`;

@@ -53,7 +53,7 @@ async function follow() {
     await click("tour_end");
     await until_steps(4000);
 
-    // Change it while it grows, or after its end.
+    // As the tutorial says, parameters can be changed while the pattern grows or after its end.
     await browser.until(is_over);
     await move("#speed", 2);
     await move("#controls .slider:nth-of-type(2) [type=range]", 0.063);
@@ -120,7 +120,7 @@ async function follow() {
     for (const [id, name] of [["picture", "new.png"], ["script", "new.cascade"], ["log", "new.session"]]) await saved(id, name);
     if (readFileSync("new.cascade", "utf8") !== script) throw new Error("the script that was saved is another one");
 
-    // On an animal.
+    // The pattern on an animal.
     await type_script(script.replace(/^domain .*$/m, "domain { surface: creature; cells: 8000 }"));
     await browser.until(`!document.getElementById("solid").hidden && ${at_stage(2)} && ${is_over}`);
     await sleep(4);

@@ -62,7 +62,7 @@ void Run::start(const Configuration& configuration) {
     options.control = &control;
     auto made = Simulation::create(script, options);
     if (!made) {
-        // Errors of files that the script names are among the messages.
+        // Errors about files that the script names are already among the messages.
         if (!script.diagnostics.has_errors()) failure = made.error().message;
         return;
     }
@@ -117,7 +117,8 @@ std::vector<Message> messages_of(const Script& script) {
 
 using Errors = std::vector<std::string>;
 
-/// Matches each of `found` with one of `expected`, in any order, and reports the rest of both.
+/// Matches each of `found` with one of `expected`, in any order, and reports the entries of both
+/// that are left.
 template <typename Found, typename Expected, typename Matches, typename Describe>
 void compare(std::vector<Found> found, const std::vector<Expected>& expected, Matches&& is_it,
              Describe&& describe, Errors& errors) {
@@ -235,8 +236,8 @@ void compare_bits(const Run& run, const Run& other, const std::string& name, Err
     if (!difference.empty()) errors.push_back("is not the same as " + name + ": " + difference);
 }
 
-/// A case must give the same bits in all configurations of a precision. The bits of the first are
-/// stored and compared.
+/// Stores the bits of the first configuration of a case with a precision, and compares the other
+/// configurations of this precision with them. Their bits must be the same.
 void compare_with_first(const Run& run, const ScriptCase& script,
                         const Configuration& configuration, Errors& errors) {
     struct First {

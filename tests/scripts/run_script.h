@@ -16,7 +16,7 @@ struct Configuration {
     Precision precision = Precision::single;
     int threads = 1;
 
-    std::string name() const;  ///< "interpreter/single/3".
+    std::string name() const;  ///< For example "interpreter/single/3".
 };
 
 /// All configurations of this build in which a case is to run.

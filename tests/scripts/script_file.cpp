@@ -18,8 +18,8 @@ std::string trimmed(std::string_view text) {
     return std::string(text.substr(first, text.find_last_not_of(" \t") - first + 1));
 }
 
-/// The position of the only relation between blanks outside of brackets; npos if there is none or
-/// more than one.
+/// The position of the only relation between blanks outside of brackets, or npos if there is none
+/// or more than one.
 std::size_t find_relation(const std::string& text, std::string& relation) {
     std::size_t found = std::string::npos;
     int depth = 0;
@@ -53,9 +53,9 @@ private:
     }
     ScriptCase& current() { return file.cases.empty() ? shared_ : file.cases.back(); }
 
-    ScriptCase shared_;          ///< The lines before the first case.
+    ScriptCase shared_;          ///< The text and instructions before the first case.
     std::size_t line_ = 0;       ///< From 1.
-    std::size_t code_line_ = 1;  ///< The last line that contains more than comments.
+    std::size_t code_line_ = 1;  ///< The last line with text other than comments.
 };
 
 Reader::Reader(const std::string& text) {

@@ -13,8 +13,8 @@ namespace cascade::test {
 /// A message about the text of a script. In an expected message `text` is a pattern.
 struct Message {
     std::string kind;                  ///< error, warning or note.
-    std::string source;                ///< "<--set>"; empty: the script itself.
-    std::size_t line = 0, column = 0;  ///< From 1; 0: nowhere.
+    std::string source;                ///< "<--set>", or empty for the script itself.
+    std::size_t line = 0, column = 0;  ///< From 1, or 0 if there is no place.
     std::string text;                  ///< "message | hint".
 };
 
@@ -32,17 +32,18 @@ struct ExpectedValue {
 /// One script of a file with all its expectations.
 struct ScriptCase {
     std::string name;  ///< Empty if the file has no cases.
-    std::string text;  ///< With the same line numbers as in the file.
+    std::string text;  ///< The text has the same line numbers as in the file.
     std::vector<std::string> sets;
     bool runs_once = false, is_single = true, is_double = true, is_interpreted = true;
-    std::vector<Message> messages;                    ///< Expected messages about the text.
-    std::vector<std::string> warnings;                ///< Patterns for warnings of the run.
-    std::optional<std::vector<std::string>> remarks;  ///< Patterns; nullopt: remarks are ignored.
-    std::optional<std::string> failure;               ///< A pattern.
+    std::vector<Message> messages;      ///< Expected messages about the text.
+    std::vector<std::string> warnings;  ///< Patterns for warnings of the run.
+    /// Patterns. Without a value, remarks are ignored.
+    std::optional<std::vector<std::string>> remarks;
+    std::optional<std::string> failure;  ///< A pattern.
     std::vector<ExpectedValue> values;
-    std::vector<std::string> same_as;  ///< Names of cases.
-    bool is_sound = false;             ///< `expect sound`.
-    bool is_quiet = false;             ///< `expect quiet`.
+    std::vector<std::string> same_as;  ///< Cases with the same result.
+    bool is_sound = false;             ///< Whether it says `expect sound`.
+    bool is_quiet = false;             ///< Whether it says `expect quiet`.
     std::size_t expectations = 0;
 
     /// True if the case expects nothing from a run.

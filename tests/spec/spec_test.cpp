@@ -54,7 +54,7 @@ protected:
         if (script.program) expect_sound_kernels(*script.program);
     }
 
-    /// Compares the messages of a script with the text after it, or rewrites that text.
+    /// Compares the messages of a script with the text block after it, or rewrites this block.
     void check_messages(const CodeBlock& block, const CodeBlock* expected) {
         const Script script = load_script("script.cascade", block.body, ".");
         EXPECT_EQ(script.diagnostics.has_errors(), block.word == "cascade-error");
@@ -151,8 +151,8 @@ std::string_view word_of(Contexts places) {
     return "";
 }
 
-/// The beginning of the row of a function in functions.md: `a + b`, `not a`, `-a`, `name(`, `name(e
-/// over domain)`, `name(e over near(d))`.
+/// Returns how the row of a function begins in functions.md: `a + b`, `not a`, `-a`, `name(`,
+/// `name(e over domain)`, `name(e over near(d))`.
 std::string beginning_of_row(Function function) {
     const FunctionInfo& row = info(function);
     const std::string spelling(row.spelling);
@@ -181,7 +181,7 @@ TEST(FunctionsPage, HasARowForEveryFunction) {
     std::size_t of_language = 0;
     for (std::size_t k = 0; k < function_count; ++k) {
         const auto function = static_cast<Function>(k);
-        if (info(function).spelling.starts_with('(')) continue;  // Made by lowering.
+        if (info(function).spelling.starts_with('(')) continue;  // Only lowering makes it.
         ++of_language;
         const std::string beginning = beginning_of_row(function);
         const auto row = std::find_if(rows.begin(), rows.end(), [&](const auto& cells) {
@@ -214,7 +214,7 @@ std::string_view word_of(Domains domains) {
         case Domains::bent: return "bent";
         case Domains::all: return "all";
         case Domains::fields:
-        case Domains::crawling: break;  // Of functions only.
+        case Domains::crawling: break;  // No setting is limited to these.
     }
     return "";
 }

@@ -1,4 +1,5 @@
-// Reads the files that tests/support/case_file.h writes: numbers of 32 bits, and lists after their length.
+// Reads the files that tests/support/case_file.h writes: numbers of 32 bits, and lists of bytes
+// that follow their lengths.
 export class Reader {
   constructor(bytes) {
     this.bytes = bytes;

@@ -24,7 +24,7 @@ public:
     /// Runs a kernel on some or all cells, into new planes.
     std::vector<Field> run(const Kernel& kernel) const;
     std::vector<Field> run(const Kernel& kernel, const Patch& cells) const;
-    /// From now on, kernels that can fill columns of the halo do so.
+    /// Makes kernels fill these columns of the halo from now on, if they can.
     void fill_columns(HaloColumns columns) { columns_ = columns; }
 
 private:
@@ -49,7 +49,7 @@ std::vector<Field> run_kernel(Backend& backend, const CellKernel& kernel, const 
                               std::uint64_t seed);
 
 /// Empty if both contain the same words in all cells, where all NaN count as equal. Otherwise the
-/// first difference: result, cell, both words.
+/// first difference: the result's index, the cell, and both words.
 std::string same_bits(const std::vector<Field>& a, const std::vector<Field>& b);
 
 /// Empty if a run wrote only what backend.h allows: these cells, the padding after the last cell of

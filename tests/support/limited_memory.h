@@ -7,9 +7,9 @@
 
 namespace cascade::test {
 
-/// Runs `action` in a child process that may use `bytes` more than this process, and returns its
-/// text, or "died" if the child died. With sanitizers there is no limit, since they need more than
-/// any limit.
+/// Runs `action` in a child process that may use `bytes` bytes more than this process. Returns what
+/// `action` returned, or "died" if the child died. With sanitizers there is no limit, since they
+/// need more than any limit.
 std::string in_limited_memory(std::uint64_t bytes, const std::function<std::string()>& action);
 
 }  // namespace cascade::test

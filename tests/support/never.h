@@ -1,4 +1,4 @@
-// A flag that stops no work.
+// A flag for work that can be cancelled. It is never set.
 #pragma once
 
 #include <atomic>

@@ -21,8 +21,8 @@ constexpr std::uint32_t special_words[] = {
     0x7f800000, 0xff800000,                          // infinities
     0x7fc00000, 0xffc00000, 0x7f800001, 0xffffffff,  // NaN
     0x3f800000, 0xbf800000, 0x40000000, 0x3f000000,  // 1, −1, 2, 1/2
-    0x3f7fffff, 0x3f800001, 0x4b000000, 0x4b800000,  // beside 1; 2^23, 2^24
-    0x3e000000, 0x41400000, 0x42b17218, 0xc2aeac50,  // 1/8, 12, where exp overflows, underflows
+    0x3f7fffff, 0x3f800001, 0x4b000000, 0x4b800000,  // the neighbours of 1; 2^23, 2^24
+    0x3e000000, 0x41400000, 0x42b17218, 0xc2aeac50,  // 1/8, 12, where exp overflows and underflows
 };
 
 constexpr std::uint64_t special_long_words[] = {
@@ -34,15 +34,15 @@ constexpr std::uint64_t special_long_words[] = {
     0x7ff0000000000000, 0xfff0000000000000,                      // infinities
     0x7ff8000000000000, 0xfff8000000000000, 0x7ff0000000000001,  // NaN
     0xffffffffffffffff, 0x3ff0000000000000, 0xbff0000000000000,  // NaN; 1, −1
-    0x4000000000000000, 0x3fe0000000000000, 0x3fefffffffffffff,  // 2, 1/2; beside 1
+    0x4000000000000000, 0x3fe0000000000000, 0x3fefffffffffffff,  // 2, 1/2; the neighbours of 1
     0x3ff0000000000001, 0x4330000000000000, 0x4340000000000000,  // 2^52, 2^53
     0x3fc0000000000000, 0x4028000000000000,                      // 1/8, 12
-    0x40862e42fefa39ef, 0xc086232bdd7abcd2,                      // where exp overflows, underflows
+    0x40862e42fefa39ef, 0xc086232bdd7abcd2,  // where exp overflows and underflows
 };
 
 struct Value {
     ValueId id;
-    bool is_exact = false;  ///< All executors give the same bits, even if the value is NaN.
+    bool is_exact = false;  ///< Whether all executors give the same bits, also if the value is NaN.
 };
 
 class Generator {
@@ -175,8 +175,8 @@ private:
                                                                      : hostile_long_word(stream_));
     }
 
-    /// A whole number that is a valid exponent of 2 for scaling: −128 … 127, in binary64 −1024 …
-    /// 1023.
+    /// Returns a valid exponent of 2 for scaling: a whole number from −128 to 127, or in binary64
+    /// from −1024 to 1023.
     ValueId power_of_two() {
         const std::uint64_t half = options_.precision == Precision::single ? 128 : 1024;
         const ValueId word =
@@ -240,7 +240,7 @@ private:
         return values_[from + stream_.below(values_.size() - from)];
     }
 
-    /// A value in which NaN is replaced by 0, unless all executors give it the same bits.
+    /// Returns a value in which NaN is replaced by 0, unless all executors give NaN the same bits.
     ValueId exact_operand() {
         const Value value = operand();
         if (value.is_exact) return value.id;
@@ -278,7 +278,7 @@ std::uint64_t hostile_long_word(RandomStream& stream) {
         case 5: return std::bit_cast<std::uint64_t>(static_cast<double>(stream.symmetric()) * 100);
         case 6: return stream.next() >> 32;
         default: {
-            const double rough = stream.symmetric();  // It has fewer digits than binary64.
+            const double rough = stream.symmetric();  // Has fewer digits than binary64.
             const double fine = rough + static_cast<double>(stream.symmetric()) * 0x1p-24;
             return std::bit_cast<std::uint64_t>(fine * 2);
         }

@@ -14,9 +14,11 @@ struct RandomKernelOptions {
     int operations = 40;  ///< The approximate number of instructions.
     int results = 4;
     Precision precision = Precision::single;
-    bool laplacians = true;   ///< Laplacians and values of neighbours.
-    bool links = false;       ///< For linked cells: sums over links instead of neighbours.
-    bool link_planes = true;  ///< Whether sums over links may read planes with a number for each.
+    bool laplacians = true;  ///< Whether to use Laplacians and values of neighbours.
+    /// Whether cells are linked, with sums over links instead of neighbours.
+    bool links = false;
+    /// Whether sums over links may read planes with a number for each link.
+    bool link_planes = true;
     bool multiply_adds = has_multiply_add();
     int composed_percent = 5;  ///< Percentage of elementary functions, clamps and random numbers.
 };
@@ -31,8 +33,9 @@ struct OperationCounts {
     std::array<std::uint64_t, static_cast<std::size_t>(op_count)> counts{};
 
     void add(const CellKernel& kernel);
-    /// Names of the operations that never occurred in kernels for a grid, or for linked cells,
-    /// separated by spaces. `link_planes` is that of RandomKernelOptions.
+    /// Names, separated by spaces, of the operations that never occurred. Operations that kernels
+    /// for a grid, or with `links` kernels for linked cells, cannot contain are left out.
+    /// `link_planes` has the same meaning as in RandomKernelOptions.
     std::string missing(bool links = false, bool link_planes = true) const;
     /// A line for each operation with its count and name.
     std::string report() const;

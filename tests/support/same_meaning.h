@@ -12,7 +12,7 @@
 
 namespace cascade::test {
 
-/// The syntax tree of a script as text, without the lines where its blocks began.
+/// The syntax tree of a script as text, without the line numbers of its blocks.
 inline std::string tree_of(const std::string& text) {
     Sources sources;
     Diagnostics diagnostics;
@@ -40,9 +40,9 @@ inline std::string without_layout(std::string text) {
     return text;
 }
 
-/// Describes the first fault of the formatted form of a script without syntax errors; empty if
-/// there is none. The forms in ASCII and in the notation of papers must mean the same, and
-/// converting back must give the same.
+/// Describes the first fault of the formatted form of a script without syntax errors, or returns an
+/// empty text if there is no fault. The forms in ASCII and in the notation of papers must mean the
+/// same, and converting a form to the other and back must not change it.
 inline std::string fault_of_formatting(const std::string& text) {
     const std::string tree = tree_of(text);
     for (const ScriptNotation notation :

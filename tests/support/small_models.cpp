@@ -56,8 +56,8 @@ std::string gltf_with_buffer(std::string_view indices_accessor, std::string_view
            R"({"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}]})";
 }
 
-/// A node with a skin and a node with copies: sparse positions, a morph target, and a second set of
-/// texture coordinates with a transform.
+/// A GLB file with a skinned node and an instanced node, sparse positions, a morph target, and a
+/// second set of texture coordinates with a transform.
 std::string rich_glb() {
     constexpr std::string_view json =
         R"({"asset":{"version":"2.0"},"extensionsRequired":["EXT_mesh_gpu_instancing"],"scene":0,)"

@@ -59,7 +59,7 @@ public:
 private:
     std::mutex mutex_;
     std::condition_variable has_come_;
-    std::map<int, std::deque<Messenger::Letter>> posted_;  ///< By receiver.
+    std::map<int, std::deque<Messenger::Letter>> posted_;  ///< Posted letters by receiver.
     std::map<std::pair<int, int>, std::deque<std::vector<std::byte>>> waiting_;
 };
 

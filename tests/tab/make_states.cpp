@@ -1,10 +1,10 @@
-// Runs the scripts of tests/tab_agreement_test.sh natively, without flushing denormal numbers, as
-// in a browser. Writes the data with which a page can run the scripts, and the bits that it must
-// get.
+// Runs the scripts of tests/tab_agreement_test.sh natively. Writes the data with which a page can
+// run the scripts, and the bits that the page must get.
 //
 //   tab_states kept|exact FILE
 //
-// `exact`: with denormal numbers flushed, as the program does and exact pages do.
+// `kept` keeps denormal numbers, as browsers do. `exact` flushes denormal numbers, as the program
+// and exact pages do.
 #include "core/base64.h"
 #include "core/check.h"
 #include "core/floating_point.h"
@@ -32,7 +32,7 @@ using Json = nlohmann::json;
 
 constexpr std::int64_t most_steps = 40;
 
-/// FNV-1a over the words of all cells; tests/tab/run_states.mjs has the same.
+/// FNV-1a over the words of all cells, as in tests/tab/run_states.mjs.
 std::uint32_t hash_of(const Field& field) {
     std::uint32_t hash = 0x811c9dc5;
     const PlaneLayout& layout = field.layout();
@@ -46,12 +46,12 @@ std::uint32_t hash_of(const Field& field) {
     return hash;
 }
 
-/// The script with its data for a page, and the expected bits after some steps of each stage; null
-/// if the run fails, as some random scripts do.
+/// The script with its data for a page, and hashes of the species after the run. Null if the run
+/// fails, as for some random scripts.
 Json state_of(Script script) {
     SimulationOptions options;
     options.threads = 1;
-    // The interpreter, since native code relies on denormal numbers being flushed.
+    // The interpreter runs the scripts, since native code relies on flushed denormal numbers.
     options.backend = "interp";
     RunControl control;
     auto run = LiveRun::begin(std::move(script), options, control);

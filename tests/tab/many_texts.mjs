@@ -7,7 +7,7 @@ import {pathToFileURL} from 'node:url';
 const [engine_file, worker] = process.argv.slice(2);
 const engine = new WebAssembly.Module(readFileSync(engine_file));
 
-// Counts the kernels in the engine's table: those added and not yet dropped.
+// Counts the kernels in the engine's table that were added and not yet dropped.
 let held = 0;
 const {set} = WebAssembly.Table.prototype;
 WebAssembly.Table.prototype.set = function (place, value) {

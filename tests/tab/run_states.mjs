@@ -9,7 +9,8 @@ const [engine_file, worker, states_file] = process.argv.slice(2);
 const engine = new WebAssembly.Module(readFileSync(engine_file));
 const states = JSON.parse(readFileSync(states_file, 'utf8'));
 
-// A worker has one engine, so each script gets its own worker: the module with a substitute for its page.
+// A worker has one engine, so a new worker runs each script: the module of the worker, with a
+// substitute for the page.
 let heard;
 globalThis.self = {postMessage: (message) => setImmediate(() => heard(message))};
 let workers = 0;
@@ -31,7 +32,7 @@ function hashOf(words) {
   return hash >>> 0;
 }
 
-/// The hashes of the species after the run, or the reason why there are none.
+/// Runs a script, and returns the hashes of its species, or the reason why there are none.
 async function run({name, text, overrides, is_exact, files, species}) {
   await start();
   const page = globalThis.self;

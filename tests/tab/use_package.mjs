@@ -7,7 +7,7 @@ const { CascadeError, Cascade, Pattern, load } = everything;
 const cascade = await load();
 const script = readFileSync("spots.cascade", "utf8");
 
-/// The numbers of an array that `cascade run --save` has written.
+/// The numbers of an array that `cascade run --save` wrote.
 function numbers(file) {
     const bytes = readFileSync(file);
     const start = 10 + bytes.readUInt16LE(8);
@@ -15,7 +15,8 @@ function numbers(file) {
 }
 const bits = (data) => [...new Uint32Array(data.slice().buffer)];
 
-// The same bits as the program, also in a volume, whatever steps are taken at a time.
+// Patterns have the same bits as in the program, also in a volume, and however many steps are taken
+// at a time.
 for (const name of ["spots", "volume"]) {
     const pattern = cascade.pattern(readFileSync(`${name}.cascade`, "utf8"), { set: { rate: 0.15 } });
     deepEqual(pattern.stages, ["one", "two"]);
@@ -78,7 +79,8 @@ two.run();
 one.run();
 deepEqual(bits(one.values("u").data), bits(two.values("u").data));
 
-// Every exported name and every public member has a type, and no type lacks its member.
+// Every exported name and every public member has a type, and every type belongs to a member that
+// exists.
 const types = readFileSync("node_modules/cascade-patterns/index.d.ts", "utf8");
 const class_text = (name) => types.split(`export class ${name} `)[1].split("\n}")[0];
 for (const name of Object.keys(everything)) ok(new RegExp(`export (class|function) ${name}\\b`).test(types), name);

@@ -57,7 +57,8 @@ bool write_spheres(Team& team) {
            write_maps("maps.glb", mesh, filter, look, team);
 }
 
-/// Writes a white square with a hill in its middle, and the same with mirrored texture coordinates.
+/// Writes a white square with a hill in its middle, and the same square with mirrored texture
+/// coordinates.
 bool write_hills(Team& team) {
     SurfaceMesh mesh = test::flat_square(8);
     const SurfaceCells cells = test::cells_of(mesh, 4000);
@@ -105,8 +106,8 @@ bool write_tile(Team& team) {
 }
 
 /// Writes copies of a ball in front of a square, as instances and merged: at the bottom a row of 64
-/// whose colours go from red to blue, and at the top a long green one that extends from left to
-/// right.
+/// balls whose colours go from red to blue, and at the top a long green ball that extends from left
+/// to right.
 bool write_copies() {
     const SurfaceMesh square = test::flat_square(2);
     const std::vector<Colour> colours(square.points.size(), Colour{0.2F, 0.2F, 0.2F});

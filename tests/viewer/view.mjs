@@ -1,5 +1,5 @@
-// Opens GLB files as a browser does. Arguments: the browser and the folder of the models; three.js and
-// the validator are found in node_modules of the current folder.
+// Opens GLB files as a browser does. Arguments: the browser and the folder of the models. three.js
+// and the validator are found in node_modules of the current folder.
 //
 // The Khronos validator must find no fault in a file. Then three.js draws the file in the browser, without a window and
 // without a graphics card, and the pixels must have the expected colours. The pictures are kept in the current folder.
@@ -144,7 +144,8 @@ function draw() {
             server.closeAllConnections();
             shell.removeAllListeners("exit");
             shell.once("exit", action);
-            process.kill(-shell.pid, "SIGKILL");  // The group: the command may be a script.
+            // Kills the whole process group, since the command may be a script.
+            process.kill(-shell.pid, "SIGKILL");
         };
         const limit = setTimeout(
             () => finish(() => reject(new Error("the browser drew nothing in 4 minutes"))), 240000);

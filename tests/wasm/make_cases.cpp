@@ -1,5 +1,5 @@
-// Writes the cases of tests/wasm_agreement_test.sh: random kernels, and those of the library, of
-// all examples and of random scripts, with hostile inputs.
+// Writes the cases of tests/wasm_agreement_test.sh: random kernels, and the kernels of the library,
+// of all examples and of random scripts, with hostile inputs.
 //
 //   wasm_cases kept|exact FILE
 #include "core/floating_point.h"

@@ -1,4 +1,4 @@
-// Lays out the memory for a call of a kernel like a host of WebAssembly modules.
+// Lays out the memory for a call of a kernel, as a host of WebAssembly modules does.
 #include "tests/wasm/recorded_kernel.h"
 
 #include "core/check.h"
@@ -36,7 +36,7 @@ public:
     std::vector<std::uint8_t> bytes = std::vector<std::uint8_t>(alignment);
 };
 
-/// A plane, or what becomes of it.
+/// A copy of all memory of a plane.
 template <typename T>
 std::vector<T> copy_of(const T* origin, const PlaneLayout& layout) {
     const T* first = origin - layout.offset(0, 0);

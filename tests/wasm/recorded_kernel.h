@@ -19,10 +19,11 @@ namespace cascade::test {
 struct Recording {
     std::string name;
     bool is_exact = false;
-    bool is_in_place = false;  ///< Results overwrite fields where they may.
+    bool is_in_place = false;  ///< Whether results overwrite fields where this is allowed.
 };
 
-/// Runs a kernel by the interpreter. Each run adds a case to the file, which must live longer.
+/// Makes a kernel that the interpreter runs. Each run adds a case to the file, which must outlive
+/// the kernel.
 KernelPointer recorded_kernel(const CellKernel& kernel, Stencil stencil, const Recording& recording,
                               CaseFile& file);
 

@@ -24,10 +24,11 @@ namespace {
 
 /// How much is tried.
 struct Amount {
-    int first_kernels, operations;  ///< At each place, with seeds that are always the same.
-    std::uint64_t kernels;          ///< At each place, with new seeds.
-    std::uint64_t every;            ///< One of so many systems of the library.
-    std::uint64_t scripts;          ///< Random scripts.
+    /// Kernels at each place, with fixed seeds, and their instructions.
+    int first_kernels, operations;
+    std::uint64_t kernels;  ///< Kernels at each place, with new seeds.
+    std::uint64_t every;    ///< One system in so many of the library is recorded.
+    std::uint64_t scripts;  ///< The number of random scripts.
 };
 constexpr Amount small_amount{1, 250, 2, 19, 2}, large_amount{4, 250, 60, 1, 60};
 
@@ -52,7 +53,8 @@ std::string add_kernels(CaseFile& file, const Amount& amount) {
         options.links = grid.linked;
         options.link_planes = false;  // All planes of a case have one size.
         options.operations = operations;
-        options.results = 1 + operations / 5;  // So that few operations are left out.
+        // With more results, fewer operations are removed as unused.
+        options.results = 1 + operations / 5;
         options.composed_percent = seed % 4 == 0 ? 4 : 0;
         CellKernel made = random_kernel(seed++, options);
         (grid.linked ? on_links : on_grids).add(made);
@@ -143,7 +145,7 @@ void add_chosen(Scripts& scripts) {
 /// Systems of the library that need an aggregate, a constraint and a convolution.
 const std::set<std::string> not_on_webgpu{"lightning", "vortices", "young"};
 
-/// Whether everything was recorded that WebGPU can take.
+/// Adds scripts, and returns whether everything that WebGPU can compute was recorded.
 bool add_scripts(CaseFile& file, const Amount& amount) {
     Scripts chosen(file), library(file), random(file);
     add_chosen(chosen);

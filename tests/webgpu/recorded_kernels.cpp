@@ -61,7 +61,7 @@ public:
         for (const std::uint8_t* const mask : given.masks) append(bytes_.masks, mask - first, size);
         append_words(recorded_.uniforms, given.uniforms.data(), 4 * given.uniforms.size());
         if (given.links.starts != nullptr) {
-            // The tables begin at place 0, so that a case has one kernel of linked cells.
+            // The tables begin at place 0, so a case can have only one kernel of linked cells.
             CHECK(bytes_.links.empty(), "test: one kernel of linked cells in a case");
             WgslLinks links(given.links, layout);
             bytes_.links = std::move(links.words);

@@ -11,7 +11,7 @@
 namespace cascade::test {
 namespace {
 
-/// Steps that are recorded of a stage.
+/// The largest number of steps of a stage that are recorded.
 constexpr std::size_t most_steps = 12;
 
 std::vector<std::uint32_t> words_of_field(const Field& field) {

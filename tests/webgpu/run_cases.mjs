@@ -9,7 +9,7 @@ const require = createRequire(pathToFileURL(`${process.cwd()}/`));
 const {create, globals} = await import(pathToFileURL(require.resolve('webgpu')));
 Object.assign(globalThis, globals);
 
-// What nothing refers to would be destroyed while it computes.
+// Objects that nothing refers to would be destroyed while they compute.
 const kept = globalThis.kept = {gpu: create([])};
 kept.adapter = await kept.gpu.requestAdapter();
 if (!kept.adapter) {

@@ -43,7 +43,7 @@ WebgpuCase case_of_kernels(const std::vector<CellKernel>& kernels, const Grid& g
 /// A kernel on two fields of numbers that are difficult to round, and the interpreter's results.
 WebgpuCase probing_case(Flushing flushing);
 
-/// What becomes of the stages of a script.
+/// How many cases the stages of a script gave, and why other steps gave none.
 struct RecordedStages {
     int cases = 0;
     std::set<std::string> reasons;  ///< Why steps were not recorded.

@@ -1,4 +1,4 @@
-// Checks stages of cells that crawl: founders, cells of earlier stages, and the end of the stage.
+// Checks stages of crawling cells: founders, cells of earlier stages, and the end of the stage.
 #include "lang/check/blocks/cell_stages.h"
 
 #include "lang/check/expressions/read_setting.h"
@@ -17,15 +17,15 @@ namespace cascade::checking {
 namespace {
 
 /// The tolerance of positions: a hundredth of a radius. With a tenth of this tolerance, a run takes
-/// twice as many steps, but after divisions the number of cells and their area are the same.
+/// twice as many steps, but the number of cells and their area after divisions are the same.
 constexpr double usual_tolerance = 0.01;
 
 constexpr double most_founders = 100'000'000;
 constexpr double largest_coordinate = 1e15;
-/// A stage that ends by a condition stops after this number of steps if the condition never holds.
+/// If the condition that ends a stage never holds, the stage stops after this number of steps.
 constexpr std::int64_t most_steps_until = 1'000'000;
 
-/// The call of keys(…), if the expression is such a call; else null.
+/// The call of keys(…) of which the expression consists; null if it is not such a call.
 const ast::Call* call_of_keys(const ast::Script& script, ast::Expression expression) {
     const auto* call = std::get_if<ast::Call>(&script.expressions[expression.root].node);
     return call != nullptr && call->function.text == "keys" ? call : nullptr;
@@ -123,7 +123,8 @@ void check_body(Workspace& work, const ast::Script& script, const ast::Statement
     }
     bool reads_fields = false;
     for (Node& node : body->formula.nodes) {
-        // The body is computed in the cells of the grid, not at the positions of crawling cells.
+        // Reads the field itself, because the body is computed in the cells of the grid and not at
+        // the positions of crawling cells.
         if (const auto* sensed = node.as<SensedItem>()) node.kind = sensed->item;
         reads_fields |= node.is<StageItem>();
     }
@@ -138,8 +139,8 @@ void check_body(Workspace& work, const ast::Script& script, const ast::Statement
     work.draft->stages[*scope.stage].body = std::move(body->formula);
 }
 
-/// The first node in a system's formulas that senses a stage which does not run before `stage`;
-/// null if there is none.
+/// The first node in a system's formulas that reads a stage which does not run before `stage`; null
+/// if there is none.
 const Node* sensed_too_early(const System& system, std::uint32_t stage) {
     const Node* found = nullptr;
     const auto look = [&](const Formula& formula) {
@@ -158,8 +159,8 @@ const Node* sensed_too_early(const System& system, std::uint32_t stage) {
     return found;
 }
 
-/// Whether the cells of a stage are on a surface: on a model, or on a body that this stage or an
-/// earlier stage of the same cells gives.
+/// Whether the cells of a stage are on a surface. The surface is a model, or a body that is given
+/// by this stage or by an earlier stage of the same cells.
 bool has_surface(const Program& program, std::uint32_t stage) {
     if (program.domain.model || program.domain.surface) return true;
     std::optional<std::uint32_t> of = stage;
@@ -170,7 +171,7 @@ bool has_surface(const Program& program, std::uint32_t stage) {
 }
 
 /// The name of a value that the rates or rules of cells read and that exists only on a surface;
-/// empty if there is none. On planes, cells also have a distance and a normal.
+/// empty if they read no such value. On a plane, cells also have a distance and a normal.
 std::string_view read_of_surface(const System& system, bool is_plane) {
     std::string_view found;
     const auto look = [&](const Formula& formula) {
@@ -224,7 +225,7 @@ void fill_cell_time(Workspace& work, std::uint32_t index, const Settings& own,
     check_solver(work, time);
     time.automatic_speed = !is_adaptive(time.solver);
     if (!time.tolerance) time.tolerance = usual_tolerance;
-    // `iterations` limits the number of steps even if the stage has another end.
+    // `iterations` limits the number of steps even if something else ends the stage.
     time.duration_in_steps.reset();
     time.duration = own.time.duration ? own.time.duration : defaults.time.duration;
     const auto& most = own.iterations ? own.iterations : defaults.iterations;

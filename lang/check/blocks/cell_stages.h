@@ -1,4 +1,4 @@
-// Checks stages of cells that crawl (internal to the checker): the cells at the start, the values
+// Checks stages of crawling cells (internal to the checker): the cells at the start, the values
 // that these cells have from an earlier stage, and the end of the stage.
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace cascade::checking {
 
-/// Sets the starting radius of the cells of a stage from its setting `size`.
+/// Sets the starting radius of a stage's cells from the stage's `size`.
 void take_cell_size(Workspace& work, std::uint32_t index);
 /// Checks a statement `founders: …`, `remove: e` or `body: e` of a stage of cells.
 void check_cell_setting(Workspace& work, const ast::Script& script, const ast::Statement& statement,
@@ -24,13 +24,14 @@ void fill_cell_time(Workspace& work, std::uint32_t stage, const Settings& own,
 /// cannot have.
 void change_cell_solver(Workspace& work, std::uint32_t stage, const TimeSettings& asked);
 
-/// If a stage of cells continues with the cells of an earlier stage, takes position, frame, radius
-/// and age from there, except for values that the continuing stage sets itself. `axes` are this
-/// stage's ey and ez. An axis that it does not set is empty. Reports a stage that has no cells.
+/// If a stage of cells continues with the cells of an earlier stage, takes their position, frame,
+/// radius and age from the earlier stage, except for values that `stage` sets itself. `axes` are
+/// the ey and ez of `stage`. An axis that `stage` does not set is empty. Reports a stage that has
+/// no cells.
 void take_cells(Workspace& work, std::uint32_t stage, std::array<Formula, 2> axes);
 
-/// Checks what can be checked only once the whole stage is known: its cells sense only fields of
-/// earlier stages, and distances of `near` are the same for all cells.
+/// Checks what can be checked only when the whole stage is known: whether its cells read only
+/// fields of earlier stages, and whether the distances of `near` are the same for all cells.
 void check_cell_stage(Workspace& work, std::uint32_t stage);
 
 }  // namespace cascade::checking

@@ -26,43 +26,44 @@ using StageOverrides = std::vector<std::vector<const ast::Statement*>>;
 /// Finds the stages to which each override applies.
 StageOverrides distribute_overrides(Workspace& work, const ast::Script& script);
 
-/// Adds the stages of a script, without their systems. `has_cells(name)` returns whether the system
-/// of this name is a block of cells.
+/// Adds the stages of a script, but not yet their systems. `has_cells(name)` returns whether the
+/// system with this name is a block of cells.
 void add_stages(Workspace& work, const ast::Script& script,
                 const std::function<bool(std::string_view)>& has_cells);
-/// The stage blocks of a script, at most as many as a script may have.
+/// The stage blocks of a script. If there are more stages than a script may have, only as many as
+/// it may have.
 std::vector<const ast::Block*> stage_blocks(const ast::Script& script);
-/// Gives each stage its system, if that system has been added already. `all_are_known` means that
-/// all systems have been added: a name that is not found is then reported as an error.
+/// Gives each stage its system if that system has already been added. `all_are_known` says that all
+/// systems have been added. In this case, a system name that is not found is reported as an error.
 void find_systems_of_stages(Workspace& work, const ast::Script& script, bool all_are_known);
 /// Checks all stages of a script, including overrides and the options that apply to all stages.
 void check_stages(Workspace& work, const ast::Script& script);
 
-/// Checks the rules for sides that the block of system `index` gives its species. The system gets
-/// these rules and the rules of `base`, the system from which it is derived.
+/// Checks the rules that the block of system `index` gives its species at the sides. The system
+/// gets these rules and the rules of `base`, the system from which it is derived.
 void check_system_sides(Workspace& work, const ast::Script& script, const ast::Block& block,
                         SystemId index, std::optional<SystemId> base);
 
-/// Checks a statement of the domain that gives a rule for a side for all species.
+/// Checks a statement of the domain that gives a rule at a side for all species.
 void check_domain_side(Workspace& work, const ast::Script& script, const ast::Statement& statement);
 
-/// Determines the rules at the sides of all stages. Systems, stages and the domain must have been
+/// Determines the rules at the sides for all stages. Systems, stages and the domain must have been
 /// checked.
 void check_stage_sides(Workspace& work, const ast::Script& script);
 
-/// For each stage, the overrides of its sides, in order.
+/// For each stage, the overrides of rules at its sides, in order.
 using SideOverrides = std::vector<std::vector<ast::Statement>>;
 SideOverrides distribute_side_overrides(Workspace& work, const ast::Script& script);
 
 /// Whether the word is left, right, top, bottom, front, back or sides.
 bool is_side_word(std::string_view word);
 
-/// The script's only block of this kind; null if there is none. Reports a second block. `name` is
-/// the name of the kind in messages.
+/// The script's only block of this kind; null if there is none. If there is a second block of this
+/// kind, reports it. `name` is the name of the kind in messages.
 const ast::Block* find_block(Workspace& work, const ast::Script& script, ast::BlockKind kind,
                              std::string_view name);
 
-/// Reports rules for the sides of single species in a block that cannot contain them.
+/// Reports rules at sides for single species in a block that cannot contain such rules.
 void report_sides(Workspace& work, const ast::Block& block);
 
 /// Checks the `domain` block, if there is one, and the options for the domain.
@@ -70,7 +71,8 @@ void check_domain(Workspace& work, const ast::Script& script);
 
 /// Whether a setting of the domain belongs to a model.
 bool is_model_setting(std::string_view name);
-/// Whether `surface:` names a shape, such as sphere, instead of giving three expressions.
+/// Whether the value of `surface:` names a shape, such as sphere. Otherwise the value consists of
+/// three expressions.
 bool is_model_surface(const ast::Script& script, const ast::Statement& surface);
 /// Checks the settings of a model. If neither the block nor an option names a model, reports
 /// settings of models as errors and returns false.

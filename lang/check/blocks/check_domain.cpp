@@ -18,7 +18,8 @@ namespace cascade::checking {
 
 namespace {
 
-constexpr double most_cells = 2147483648.0;  // 2^31: the number of a cell fits into a 32-bit word.
+// 2^31, so that the number of a cell fits into a 32-bit word.
+constexpr double most_cells = 2147483648.0;
 
 /// The number of cells along one side of the grid. Reports errors.
 std::optional<double> check_side(Workspace& work, const ast::Script& script,
@@ -79,7 +80,7 @@ void check_grid(Workspace& work, const ast::Script& script, const ast::Statement
     grid.depth = counts[2];
 }
 
-/// Parses `periodic` or `noflux`. Reports errors.
+/// The boundary that a word means: `periodic` or `noflux`. Reports errors.
 std::optional<Boundary> check_boundary_word(Workspace& work, const ast::Script& script,
                                             ast::Expression expression) {
     const ast::Expr& value = script.expressions[expression.root];
@@ -99,7 +100,7 @@ std::optional<Boundary> check_boundary_word(Workspace& work, const ast::Script& 
     return std::nullopt;
 }
 
-/// Sets the boundary from one word for all axes, or from one word for each axis.
+/// Sets the boundary. The statement gives one word for all axes, or one word for each axis.
 void check_boundary(Workspace& work, const ast::Script& script, const ast::Statement& statement) {
     if (statement.values.size() > 3) {
         work.diagnostics.error(
@@ -129,7 +130,7 @@ void check_mask(Workspace& work, const ast::Script& script, const ast::Statement
     work.draft->domain.mask = {std::move(checked->formula), span_of(script, statement.values[0])};
 }
 
-/// Reports stencils other than the cross if cells are not in straight rows.
+/// Reports any stencil other than the cross if the cells are not in straight rows.
 void check_place_of_stencil(Workspace& work, const ast::Block& block) {
     const DomainSettings& domain = work.program.domain;
     if (domain.stencil == StencilKind::cross) return;
@@ -156,8 +157,8 @@ void check_fast(Workspace& work, const ast::Statement& option) {
                              "multiply and add in one operation");
 }
 
-/// Divides the cells of a domain whose other settings have been checked. `detail: 2` halves the
-/// sides of cells.
+/// Divides the cells of a domain whose other settings have been checked. For example, `detail: 2`
+/// halves the sides of cells.
 void check_detail(Workspace& work, const ast::Script& script, const ast::Statement& option) {
     const auto detail = check_constant(work, script, option.values[0], "detail");
     if (!detail) return;
@@ -171,7 +172,8 @@ void check_detail(Workspace& work, const ast::Script& script, const ast::Stateme
     } else {
         const bool has_metric = domain.surface && domain.surface->has_metric;
         domain.grid = finer_grid(domain.grid, domain.detail);
-        if (has_metric) domain.grid.spacing = 1;  // The areas of cells then come from the metric.
+        // With a metric, the areas of cells come from the metric.
+        if (has_metric) domain.grid.spacing = 1;
         cells = static_cast<double>(domain.grid.width) * static_cast<double>(domain.grid.height) *
                 static_cast<double>(domain.grid.depth);
     }
@@ -203,7 +205,8 @@ void report_no_setting(Workspace& work, const ast::Word& name) {
                            std::move(hint));
 }
 
-/// A hint for ranges such as `extent: 0 .. 10, 0 .. 10`, with the lengths that they mean.
+/// A hint about ranges such as `extent: 0 .. 10, 0 .. 10`. The hint contains the lengths of these
+/// ranges.
 std::string hint_of_ranges(const ast::Script& script, const ast::Statement& statement) {
     std::string lengths;
     for (std::size_t k = 0; k + 1 < statement.values.size(); k += 2) {
@@ -242,11 +245,12 @@ void check_domain_statement(Workspace& work, const ast::Script& script,
         case Setting::spacing:
             return put(domain.grid.spacing, read_number(work, script, statement));
         case Setting::extent:
-        case Setting::mask: return;  // Checked after the grid and its lengths, in check_domain().
+        // check_domain() checks these settings after the grid and its lengths.
+        case Setting::mask: return;
         case Setting::seed: return put(domain.seed, read_number(work, script, statement));
         case Setting::stencil: return put(domain.stencil, read_word(work, script, statement));
         case Setting::precision: return put(domain.precision, read_word(work, script, statement));
-        default: return;  // Settings of surfaces and models, checked in check_domain().
+        default: return;  // check_domain() checks the settings of surfaces and models.
     }
 }
 

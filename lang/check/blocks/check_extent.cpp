@@ -1,4 +1,4 @@
-// Reads `extent` in the domain and in stages.
+// Reads the `extent` of the domain and of stages.
 #include "lang/calculus/growth_of_lengths.h"
 #include "lang/check/blocks/check_blocks.h"
 #include "lang/check/blocks/check_growth.h"
@@ -18,10 +18,10 @@ namespace cascade::checking {
 
 namespace {
 
-constexpr double same_length = 1e-6;  // The relative tolerance for lengths that are rounded in a
-                                      // script.
+// The relative tolerance for lengths that are rounded in a script.
+constexpr double same_length = 1e-6;
 
-/// The lengths as formulas of numbers and t. Reports errors.
+/// Reads the lengths as formulas of numbers and t. Reports errors.
 std::optional<std::vector<Formula>> read_lengths(Workspace& work, const ast::Script& script,
                                                  const ast::Statement& statement) {
     std::vector<Formula> lengths;

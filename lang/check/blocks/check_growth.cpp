@@ -28,7 +28,7 @@ double value_at(const Formula& formula, double t) {
     return evaluate(formula, moment);
 }
 
-/// The time until which the stage certainly runs; 0 if it is known only during the run.
+/// The time up to which it is certain that the stage runs. 0 if this is known only during the run.
 double certain_end(const Program& program, std::uint32_t index) {
     const StageTime& time = program.stages[index].time;
     if (time.until || time.steady || time.open_end) return 0;
@@ -177,7 +177,7 @@ private:
         return true;
     }
 
-    /// Whether the length becomes 0 between two times. Finds the least length by a ternary search.
+    /// Whether the length becomes 0 between two times. A ternary search finds the smallest length.
     static bool vanishes(const Formula& scale, double from, double to) {
         const double largest = std::max(value_at(scale, from), value_at(scale, to));
         for (int third = 0; third < 100; ++third) {
@@ -188,8 +188,8 @@ private:
         return !(value_at(scale, from) > smallest_jump * largest);
     }
 
-    /// Whether the formula jumps between two times: halves the interval again and again, and takes
-    /// the half in which it changes more.
+    /// Whether the formula jumps between two times. Halves the interval again and again, and each
+    /// time continues with the half in which the formula changes more.
     static bool jumps(const Formula& scale, double t0, double at0, double t1, double at1) {
         const auto change = [&] { return std::abs(at1 - at0); };
         const double limit = smallest_jump * std::max(at0, at1);

@@ -9,16 +9,16 @@
 
 namespace cascade::checking {
 
-/// The least length of a cell. The inverse of this number is the largest length. The squares of
+/// The smallest length of a cell. The largest length is the inverse of this number. The squares of
 /// both are normal numbers.
 inline constexpr double least_spacing = 1e-15;
 
-/// Whether some statement of the script may make lengths of the domain change during a stage. The
-/// domain must have been checked.
+/// Whether any statement of the script may make the lengths of the domain change during a stage.
+/// The domain must have been checked.
 bool lengths_may_grow(const Program& program, const ast::Script& script);
 
-/// Checks `extent` in the domain: sets the spacing so that the sides of the grid have these lengths
-/// at t = 0. The grid must be known.
+/// Checks `extent` in the domain. Sets the spacing so that the sides of the grid have the given
+/// lengths at t = 0. The grid must be known.
 void check_extent(Workspace& work, const ast::Script& script, const ast::Statement& statement);
 
 /// Checks `extent` in the domain of a surface or model, whose longest side it is. The surface must
@@ -30,19 +30,19 @@ void check_extent_of_surface(Workspace& work, const ast::Script& script,
 void check_stage_extent(Workspace& work, const ast::Script& script, const ast::Statement& statement,
                         Stage& stage);
 
-/// Gives the stage the growth of the domain, unless the stage sets lengths itself. Also sets the
-/// species that growth does not dilute.
+/// Gives the stage the growth of the domain, unless the stage sets lengths itself. Also sets which
+/// species growth does not dilute.
 void fill_growth(Stage& stage, const DomainSettings& domain, const Settings& own,
                  const Settings& defaults);
 
-/// Whether a formula of a stage has a meaning if the stage's domain grows. Otherwise reports an
-/// error at the first function that has none.
+/// Whether a formula of a stage has a meaning if the stage's domain grows. If not, reports an error
+/// at the first function without a meaning.
 bool can_grow(const Program& program, std::uint32_t stage, const Formula& formula,
               Diagnostics& diagnostics);
 
-/// Reports stages that cannot run in their growing domain: lengths that are not above 0 or that
-/// jump, and parts of the stage for which growth has no meaning. The program must have no other
-/// errors, and growth must not have been written into its equations.
+/// Reports stages that cannot run in their growing domain. In such a stage, a length is not above 0
+/// or jumps, or a part of the stage has no meaning in a growing domain. The program must have no
+/// other errors, and growth must not have been written into its equations yet.
 void check_growth(const Program& program, Diagnostics& diagnostics);
 
 }  // namespace cascade::checking

@@ -18,11 +18,12 @@ namespace cascade::checking {
 
 namespace {
 
-/// The arguments that a surface takes in brackets. Surfaces that are not in this table take none.
+/// The arguments that a surface needs in brackets. Surfaces that are not in this table have no
+/// arguments.
 struct ShapeSizes {
     ModelShape shape;
     std::size_t most;
-    std::string_view arguments;  ///< Their description in messages.
+    std::string_view arguments;  ///< A description of the arguments for messages.
     std::string_view example;
 };
 constexpr std::array<ShapeSizes, 4> shape_sizes{{
@@ -45,8 +46,8 @@ std::optional<ModelShape> shape_of(std::string_view word) {
     return word == word_of(ModelShape::implicit) ? ModelShape::implicit : shape_named(word);
 }
 
-/// The statement of a block that names a surface; null if there is none. A wrong statement for the
-/// same setting may come before it.
+/// The statement of a block that names a surface; null if there is none. An incorrect statement for
+/// the same setting may come before this statement.
 const ast::Statement* model_surface_of(const ast::Script& script, const ast::Block& domain) {
     for (const ast::Statement& statement : domain.statements) {
         if (statement.name.text == "surface" && is_model_surface(script, statement))
@@ -63,7 +64,8 @@ const ast::Statement* model_of(const ast::Script& script, const ast::Block& doma
     return model_surface_of(script, domain);
 }
 
-/// The statement of --mesh, which names a file or a shape; null if the option is not given.
+/// The statement of the option --mesh, which names a file or a shape; null if the option is not
+/// used.
 const ast::Statement* model_option(const ast::Script& script) {
     const ast::Statement* mesh = find_option(script, "mesh");
     return mesh != nullptr ? mesh : find_option(script, "surface");
@@ -87,8 +89,8 @@ public:
             check_named(mesh != nullptr ? *mesh : *surface);
         }
         if (!model_) return;
-        // `unit`, and the settings that rotate a model, refer to the surface or model of the
-        // script, not to the model of --mesh.
+        // `unit` and the settings that rotate a model refer to the surface or model that the script
+        // names. They do not refer to the model of --mesh.
         const bool is_own = option_ == nullptr;
         if (const auto* cells = find("cells")) check_cells(*cells);
         if (const auto* laplacian = find("laplacian")) {
@@ -135,7 +137,7 @@ private:
                                       "model ends");
     }
 
-    /// Drops the script's rules for the sides of a plane that --mesh replaces by a model.
+    /// If --mesh replaces the script's plane by a model, drops the rules at the sides of the plane.
     void leave_borders() {
         const DomainSettings& domain = work_.program.domain;
         if (domain.mask) {
@@ -333,7 +335,7 @@ private:
     Workspace& work_;
     const ast::Script& script_;
     const ast::Block& domain_;
-    const ast::Statement* option_;  ///< The option that names the model; null if a block does.
+    const ast::Statement* option_;  ///< The option that names the model; null if a block names it.
     std::optional<ModelSettings> model_;
 };
 

@@ -1,4 +1,4 @@
-// Checks overrides from outside the script, that is, options, and finds the stages to which each
+// Checks overrides, which are options from outside the script, and finds the stages to which each
 // --set applies.
 #include "lang/check/blocks/check_blocks.h"
 #include "lang/check/expressions/setting_words.h"
@@ -30,7 +30,7 @@ bool is_of_domain(const ast::Script& script, const ast::Override& change) {
 
 namespace {
 
-/// The command-line option that changes this setting of the domain; empty for other words.
+/// The command-line option that changes this setting of the domain. Empty if there is none.
 std::string option_for(const ast::Script& script, std::string_view name,
                        const ast::Statement& statement) {
     if (name == "grid") {
@@ -125,8 +125,8 @@ void report_unknown_stage(Workspace& work, const ast::Script& script, const ast:
                            std::move(hint));
 }
 
-/// Applies an override such as `--set gray_scott.feed=…`, which names a system instead of a stage,
-/// to all stages of the system.
+/// Applies an override that names a system and not a stage, such as `--set gray_scott.feed=…`, to
+/// all stages of the system.
 bool set_in_stages_of_system(const Workspace& work, std::string_view system,
                              const ast::Statement* statement, StageOverrides& result) {
     bool used = false;
@@ -144,7 +144,7 @@ bool is_system(const Workspace& work, std::string_view name) {
                        [&](const System& system) { return system.name == name; });
 }
 
-/// Whether the stage has a species or a definition, or a family of them, with the statement's name.
+/// Whether the stage has a species, a definition or a family with the name that the statement sets.
 bool has_subject(const Workspace& work, const Stage& stage, const ast::Statement& statement) {
     if (stage.system == unknown_system) return false;
     const System& system = work.program.systems[stage.system];
@@ -162,14 +162,15 @@ bool has_subject(const Workspace& work, const Stage& stage, const ast::Statement
            });
 }
 
-/// An override of a side. `stage` is empty if the override applies to all stages with the species.
+/// An override of a rule at a side. `stage` is empty if the override applies to all stages that
+/// have the species.
 struct SideChange {
     ast::Word stage;
     ast::Statement statement;
 };
 
-/// The change as an override of a side; empty if it is not such an override. `u.left` is a side of
-/// u if no stage and no system is called u.
+/// The change as an override of a rule at a side; nullopt if it is not such an override. `u.left`
+/// means a side of u if no stage and no system is called u.
 std::optional<SideChange> as_side(const Workspace& work, const ast::Override& change) {
     if (!change.statement.side.empty()) return SideChange{change.stage, change.statement};
     const bool may_be = !change.stage.empty() && change.statement.index.empty() &&
@@ -212,8 +213,8 @@ SideOverrides distribute_side_overrides(Workspace& work, const ast::Script& scri
                                        work.program.systems[stage.system].name == side->stage.text;
             const bool is_named = stage.name == side->stage.text || is_its_system;
             is_stage |= is_named;
-            // If the override names a stage that lacks the species, the error is reported when the
-            // sides of this stage are checked.
+            // If the override names a stage without this species, the error is reported later, when
+            // the sides of the stage are checked.
             if (side->stage.empty() ? !has_subject(work, stage, statement) : !is_named) continue;
             result[k].push_back(statement);
             is_used = true;

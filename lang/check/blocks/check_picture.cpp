@@ -1,5 +1,5 @@
-// Checks the `picture` block: the colour, the material of fields, and, for cells that crawl, the
-// shape and the shape's quantities.
+// Checks the `picture` block: the colour, the material of fields, and, for crawling cells, the
+// shape and the quantities of the shape.
 #include "lang/check/blocks/check_blocks.h"
 #include "lang/check/blocks/check_growth.h"
 #include "lang/check/expressions/read_setting.h"
@@ -20,7 +20,7 @@ namespace cascade::checking {
 
 namespace {
 
-/// The last stage that takes a step, or the last stage if none does.
+/// The last stage that takes a step. If no stage takes a step, the last stage.
 std::uint32_t shown_stage(const Program& program) {
     for (std::size_t i = program.stages.size(); i > 0; --i) {
         if (program.stages[i - 1].iterations > 0) return static_cast<std::uint32_t>(i - 1);
@@ -62,7 +62,7 @@ public:
 private:
     bool knows_stage() const { return scope_.system != unknown_system; }
     bool shows_cells() const {
-        if (!knows_stage()) return true;  // An error was reported before.
+        if (!knows_stage()) return true;  // An error has been reported.
         return work_.program.systems[scope_.system].cells.has_value();
     }
     static bool is_material(Setting setting) {
@@ -79,8 +79,8 @@ private:
         return false;
     }
 
-    /// Checks the body. A body has no meaning on a model, which --mesh may put in place of the
-    /// script's volume.
+    /// Checks the body. A body has no meaning on a model. The domain may be a model because --mesh
+    /// has replaced the script's volume.
     void check_body(const ast::Statement& statement) {
         if (!are_fields(statement.name)) return;
         const DomainSettings& domain = work_.program.domain;
@@ -99,8 +99,7 @@ private:
     }
 
     void report_no_setting(const ast::Word& name) {
-        // If the shape has errors, they have been reported, and a quantity of this name may be
-        // missing because of them.
+        // The shape may lack a quantity because it has errors, which have been reported.
         if (!knows_shape()) return;
         std::vector<std::string> known = settings_of({SettingBlock::picture});
         if (shape() != nullptr) {
@@ -123,8 +122,8 @@ private:
                         work_.program.stages[*scope_.stage].name));
     }
 
-    /// Checks the skin, the colour of the surface below the cells. Names in it refer to the last
-    /// stage of fields.
+    /// Checks the skin, which is the colour of the surface below the cells. Names in its formula
+    /// refer to the last stage of fields.
     void check_skin(const ast::Statement& statement) {
         Scope scope = scope_;
         const bool knows_systems =
@@ -160,7 +159,8 @@ private:
     void check_shape(const ast::Statement& statement) {
         const ast::Expr& value = value_of(script_, statement);
         const auto* name = std::get_if<ast::Name>(&value.node);
-        if (std::holds_alternative<ast::Text>(value.node)) return;  // The name of a file.
+        // A string is the name of a file.
+        if (std::holds_alternative<ast::Text>(value.node)) return;
         if (name == nullptr) {
             work_.diagnostics.error(value.span,
                                     "'shape' takes a word or the name of a file in "
@@ -171,7 +171,7 @@ private:
         }
     }
 
-    /// The word after `shape:`. Empty if the block has no such setting.
+    /// The word after `shape:`. Empty if the block does not contain this setting.
     std::string_view said_shape() const {
         const auto said = picture_expression(script_, "shape");
         const auto* const name =

@@ -1,5 +1,5 @@
-// Checks each shape as a small system. Its first quantities are t, s and the number of the part.
-// Some of its definitions have a fixed meaning.
+// Checks each shape as a small system, whose first quantities are t, s and the number of the part.
+// Some names of definitions have a fixed meaning.
 #include "lang/check/blocks/check_shape.h"
 
 #include "core/check.h"
@@ -28,7 +28,7 @@ namespace {
 
 constexpr std::array<const char*, ShapeForm::known_count> known_names{"t", "s", "part"};
 
-/// A definition with a fixed meaning.
+/// A definition whose name has a fixed meaning.
 struct Meant {
     const char* name;
     Formula ShapeForm::*formula;
@@ -51,7 +51,7 @@ public:
     ShapeChecker(Workspace& work, const DerivedSystem& derived, SystemId index)
         : work_(work), derived_(derived), index_(index) {}
 
-    /// Returns the shape. Empty if the shape has an error.
+    /// Checks the shape and returns it. nullopt if the shape has an error.
     std::optional<ShapeForm> run();
 
 private:
@@ -141,7 +141,8 @@ void ShapeChecker::check_quantity(ItemId item, const Declaration& declaration) {
     form_.usual[item.index()] = value.value_or(0);
 }
 
-/// The formula of a definition, with the definitions that it reads expanded.
+/// The formula of a definition. The formulas of definitions that it reads take the place of these
+/// definitions.
 Formula ShapeChecker::whole(DefinitionId definition) {
     ExpressionGraph graph;
     Flattening flattening(graph);
@@ -248,7 +249,7 @@ SystemId add_system(Workspace& work, const SystemBlock& from) {
     return index;
 }
 
-/// The names of shapes that may refer to the library.
+/// The names of shapes that the library may contain.
 std::vector<std::string_view> shapes_wanted(const ast::Script& script) {
     std::vector<std::string_view> own, wanted;
     for (const ast::Block& block : script.blocks) {
@@ -267,12 +268,14 @@ std::vector<std::string_view> shapes_wanted(const ast::Script& script) {
 
 }  // namespace
 
-/// The shapes of a script, and of the texts `library`, that have no errors.
+/// Checks the shapes of a script and of the texts `library`, and returns the shapes that have no
+/// errors.
 std::vector<ShapeForm> checked_shapes(Workspace& work, const ast::Script& script,
                                       const std::vector<LibraryScript>& library) {
     const std::vector<SystemBlock> blocks = blocks_of(script, library);
     if (blocks.empty()) return {};
-    functions_of(work, script);  // Reports mistakes in functions once.
+    // Reports mistakes in functions here, so that they are reported only once.
+    functions_of(work, script);
     Program program;
     Workspace own{program, work.diagnostics, {}, {}, {}, {}, {}, 0};
     own.draft = &program;

@@ -21,8 +21,8 @@ std::vector<ShapeForm> check_shapes(Workspace& work, const ast::Script& script, 
 /// Checks the shapes of a script and the shapes in `library`. Returns the shapes without errors.
 std::vector<ShapeForm> checked_shapes(Workspace& work, const ast::Script& script,
                                       const std::vector<LibraryScript>& library);
-/// The shape of this name; null if there is none. A shape of the script takes precedence over a
-/// library shape of the same name.
+/// The shape with this name; null if there is none. If a shape of the script and a library shape
+/// have the same name, the result is the shape of the script.
 const ShapeForm* find_shape(const std::vector<ShapeForm>& shapes, std::string_view name);
 
 }  // namespace cascade::checking

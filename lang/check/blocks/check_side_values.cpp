@@ -1,5 +1,5 @@
-// Checks rules at the sides of stages. They depend on diffusion and definitions, so systems must
-// have been checked.
+// Checks rules at the sides of stages. The rules depend on diffusion and on definitions, so systems
+// must have been checked before.
 #include "lang/check/blocks/check_side_values.h"
 
 #include "lang/calculus/algebra.h"
@@ -52,8 +52,8 @@ private:
         return fmt::format("{}.{}", name(species), side_names[static_cast<std::size_t>(side)]);
     }
 
-    /// Reports an error only once, even if the rule applies to many stages because it belongs to a
-    /// system or to the domain.
+    /// Reports an error. If the rule applies to many stages, because it belongs to a system or to
+    /// the domain, the error is reported only once.
     bool report(Span span, std::string message, std::string hint) {
         if (std::ranges::find(reported_, span) == reported_.end()) {
             reported_.push_back(span);
@@ -99,8 +99,8 @@ private:
         return differs[NodeId(formula.nodes.size() - 1)];
     }
 
-    /// Checks a definition that has rules at sides. The definition is stored in a plane, and its
-    /// halo is filled only by these rules.
+    /// Checks a definition that has rules at sides. The definition is stored in a plane, whose halo
+    /// is filled only by these rules.
     bool check_definition(const DefinitionSides& sides) {
         const Definition& definition = system().definitions[sides.definition];
         const Formula whole = without_definitions(system(), definition.formula);
@@ -124,7 +124,7 @@ private:
                                           definition.name),
                               "");
             }
-            // A field that a constraint determines is always read: by this constraint.
+            // A field that a constraint determines is always read, because the constraint reads it.
             if (!solved_constraint(root) && !is_read_beside(system(), sides.definition)) {
                 return report(setting.span,
                               fmt::format("the side of '{0}' has no effect, because no operator "
@@ -149,7 +149,7 @@ private:
         return true;
     }
 
-    /// Reports a nested difference if it is mirrored at a side at which a species in it is not
+    /// Reports a nested difference if it is mirrored at a side where a species that it reads is not
     /// mirrored.
     void check_reach() {
         const auto check = [&](const SideSettings& sides) {
@@ -176,7 +176,7 @@ private:
     }
 
     /// Checks a rule at the border of a mask. The value of the rule is computed together with the
-    /// rates, so it may read only values in cells.
+    /// rates, so the rule may read only values in cells.
     bool check_border(const SideSetting& setting) {
         if (!takes_value(setting.kind)) return true;
         const auto& surface = program_.domain.surface;
@@ -201,7 +201,7 @@ private:
         if (diffusion_.empty()) diffusion_ = diffusion_of(program_, stage_);
         const Conductivity found = conductivity_at(system(), diffusion_, species, side);
         if (found.factor) return true;
-        // A rule of the domain applies to all species, even to species that never change.
+        // A rule of the domain applies to all species, including species that never change.
         const auto& of_all = program_.domain.sides[static_cast<std::size_t>(side)];
         const bool is_of_all = of_all && of_all->span == setting.span;
         if (is_of_all && !is_read_beside(system(), system().species()[species])) return true;
@@ -267,7 +267,8 @@ private:
     const Program& program_;
     Diagnostics& diagnostics_;
     std::uint32_t stage_ = 0;
-    IdVector<SpeciesId, SpeciesDiffusion> diffusion_;  ///< Of the stage; empty until it is needed.
+    /// The diffusion of the stage's species. Empty until it is needed.
+    IdVector<SpeciesId, SpeciesDiffusion> diffusion_;
     std::vector<Span> reported_;
 };
 

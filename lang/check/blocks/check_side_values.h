@@ -1,5 +1,5 @@
-// Checks that the values at sides can be computed each time the rates are computed (internal to the
-// checker).
+// Checks whether the values at sides can be computed each time the rates are computed (internal to
+// the checker).
 #pragma once
 
 #include "core/diagnostics.h"
@@ -7,7 +7,7 @@
 
 namespace cascade::checking {
 
-/// Reports three errors: a flux of a species that does not diffuse, a value at a side that needs
+/// Reports a species that has a flux at a side but does not diffuse, a value at a side that needs
 /// cells away from the side, and a solver that cannot evaluate a rule at a side. The program must
 /// have no other errors.
 void check_side_values(const Program& program, Diagnostics& diagnostics);

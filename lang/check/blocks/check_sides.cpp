@@ -25,7 +25,7 @@ SideSettings sides_of_boundary(const DomainSettings& domain) {
     return sides;
 }
 
-/// The rules of the domain, which apply to species that set none.
+/// The rules of the domain, which apply to species without own rules.
 SideSettings sides_of_domain(const DomainSettings& domain) {
     SideSettings sides = sides_of_boundary(domain);
     for (std::size_t side = 0; side < wall_count; ++side) {
@@ -34,7 +34,7 @@ SideSettings sides_of_domain(const DomainSettings& domain) {
     return sides;
 }
 
-/// Checks that either both sides of an axis are periodic or neither. Otherwise reports an error and
+/// Checks whether both sides of each axis are periodic or neither is. If not, reports an error and
 /// returns false.
 bool are_pairs(Workspace& work, const SideSettings& sides) {
     for (std::size_t side = 0; side < side_count; side += 2) {
@@ -43,8 +43,8 @@ bool are_pairs(Workspace& work, const SideSettings& sides) {
         if (first == second) continue;
         const std::size_t other = first ? side + 1 : side;
         const std::size_t periodic = first ? side : side + 1;
-        // Points to the species' own rule for one of the two sides if there is one, else to the
-        // domain's rule.
+        // Points to the species' own rule for one of the two sides, if there is one. Otherwise
+        // points to the domain's rule.
         const Span span = sides[other].span.end > 0 ? sides[other].span : sides[periodic].span;
         work.diagnostics.error(
             span,
@@ -58,10 +58,10 @@ bool are_pairs(Workspace& work, const SideSettings& sides) {
     return true;
 }
 
-/// Checks, if there is a mask, that a species is periodic at the same sides as the domain. The
-/// reason is that the cell beyond a periodic side depends on the mask, and all species share one
-/// mask. A definition is periodic where all species in it are. Otherwise reports an error and
-/// returns false.
+/// Checks, if there is a mask, whether a species is periodic at the same sides as the domain. This
+/// is necessary because the cell beyond a periodic side depends on the mask, and all species share
+/// one mask. A definition is periodic at the sides where all species that it reads are periodic. If
+/// the check fails, reports an error and returns false.
 bool are_periodic_as_boundary(Workspace& work, const SideSettings& sides, std::string_view where) {
     const SideRules boundary(work.program.domain.grid.boundary);
     for (std::size_t side = 0; side < side_count; ++side) {
@@ -77,8 +77,8 @@ bool are_periodic_as_boundary(Workspace& work, const SideSettings& sides, std::s
     return true;
 }
 
-/// The rules of a definition. If the definition has no rules, adds rules that are periodic or
-/// mirrored, depending on the boundary.
+/// The rules of a definition. If the definition has none, adds rules. The added rules are periodic
+/// or mirrored, depending on the boundary.
 SideSettings& sides_of_definition(const DomainSettings& domain, Stage& stage,
                                   DefinitionId definition) {
     auto& all = stage.definition_sides;
@@ -87,7 +87,8 @@ SideSettings& sides_of_definition(const DomainSettings& domain, Stage& stage,
     return all.insert(place, {definition, sides_of_boundary(domain)})->sides;
 }
 
-/// Combines the rules for each species and definition of a stage.
+/// Combines the rules of the domain, the system and the stage for each species and definition of a
+/// stage.
 void resolve(Workspace& work, Stage& stage, const std::vector<SubjectSide>& own) {
     const System& system = work.program.systems[stage.system];
     const SideSettings base = sides_of_domain(work.program.domain);
@@ -112,7 +113,7 @@ void resolve(Workspace& work, Stage& stage, const std::vector<SubjectSide>& own)
         }
     }
     if (work.program.domain.model) {
-        // The boundary of a model has no flux.
+        // Rules at sides have no effect on a model, because the border of a model has no flux.
         const auto ignore = [&](const SideSettings& sides) {
             for (const SideSetting& side : sides) {
                 if (!takes_value(side.kind)) continue;
@@ -147,8 +148,8 @@ void resolve(Workspace& work, Stage& stage, const std::vector<SubjectSide>& own)
 }
 
 /// Converts a rule of the system `from` to a rule of the system `derived`, which is derived from
-/// it. The same names have different ids there, and may have different meanings. Reports an error
-/// and returns false if the rule cannot be computed in the derived system.
+/// `from`. In `derived`, the same names have other ids and may have other meanings. Reports an
+/// error and returns false if the rule cannot be computed in the derived system.
 bool take_over(Workspace& work, const System& from, SystemId derived, SubjectSide& side) {
     const System& system = work.program.systems[derived];
     for (Node& node : side.setting.value.nodes) {
@@ -174,7 +175,8 @@ bool is_side_word(std::string_view word) { return is_setting_of(SettingBlock::si
 
 void check_system_sides(Workspace& work, const ast::Script& script, const ast::Block& block,
                         SystemId index, std::optional<SystemId> base) {
-    if (index == unknown_system) return;  // The system had errors and was not added.
+    // A system with errors is not added if its base is unknown.
+    if (index == unknown_system) return;
     Scope scope;
     scope.system = index;
     System& system = work.draft->systems[index];
@@ -209,7 +211,7 @@ void check_domain_side(Workspace& work, const ast::Script& script,
     if (written->value) {
         const auto value = check_constant(work, script, *written->value,
                                           "the value of a side of all species", std::nullopt);
-        // If the value had an error, the error has been reported, and the rule's kind still
+        // If the value has an error, the error has been reported. The kind of the rule still
         // applies.
         setting.value = {{Node{value.value_or(0), statement.span}}};
     }
@@ -236,7 +238,8 @@ void check_stage_sides(Workspace& work, const ast::Script& script) {
         ++index;
         if (stage.system == unknown_system) continue;
         std::vector<SubjectSide> rules = read_side_rules(work, script, scope, block.sides);
-        // Overrides come last. The last override has priority.
+        // Overrides are applied last, so that they replace other rules. The last override has
+        // priority.
         for (const ast::Statement& change : overrides[index - 1]) {
             for (SubjectSide& rule : read_side_rules(work, script, scope, std::span(&change, 1))) {
                 rules.push_back(std::move(rule));

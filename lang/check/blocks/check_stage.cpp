@@ -24,8 +24,8 @@ namespace cascade::checking {
 
 namespace {
 
-/// The largest number of nodes in defaults, which are copied into every stage. This limits the
-/// memory that a check needs.
+/// The largest total number of nodes in defaults. Defaults are copied into every stage, so this
+/// limits the memory that a check needs.
 constexpr std::size_t most_copied_nodes = 8u << 20;
 
 class StageChecker {
@@ -34,8 +34,8 @@ public:
                  std::size_t& copied)
         : work_(work), script_(script), index_(index), copied_(copied) {}
 
-    /// `overrides` come from outside the script. If several have the same name, the last applies.
-    /// `asked` contains the options that set the time of every stage.
+    /// `overrides` come from outside the script. If several overrides set the same name, the last
+    /// one applies. `asked` contains the options that set the time of every stage.
     void run(const ast::Block& block, const std::vector<const ast::Statement*>& overrides,
              const TimeSettings& asked);
 
@@ -69,10 +69,10 @@ private:
     std::size_t& copied_;
     Settings settings_;
     IdVector<ItemId, bool> from_system_;
-    std::array<Formula, 2> axes_;  ///< For cells: ey and ez at the start.
+    std::array<Formula, 2> axes_;  ///< ey and ez at the start, for crawling cells.
 };
 
-/// If the system is unknown, its families are unknown, too.
+/// The declarations of a statement: only one if the system, and so its families, are unknown.
 std::vector<Declaration> StageChecker::declarations_of(const ast::Statement& statement) {
     if (stage().system != unknown_system) {
         return stage_declarations(work_, system(), script_, statement);
@@ -92,7 +92,8 @@ std::vector<Declaration> StageChecker::collect(
         const auto [first, is_new] = positions.try_emplace(declaration.name, declarations.size());
         if (is_new) return declarations.push_back(std::move(declaration));
         Declaration& before = declarations[first->second];
-        // u[2]: … replaces u[i]: …. An override from outside replaces any earlier one.
+        // u[2]: … replaces u[i]: …. An override from outside the script replaces any earlier
+        // declaration.
         const bool replaces = from_outside || before.indices.size() > declaration.indices.size();
         const bool is_replaced =
             !from_outside && before.indices.size() < declaration.indices.size();
@@ -133,8 +134,8 @@ void StageChecker::run(const ast::Block& block, const std::vector<const ast::Sta
     if (stage().system == unknown_system) return;
     stage().items.resize(system().item_count());
     from_system_.assign(system().item_count(), false);
-    // An end from outside the script replaces the script's end. Either may be `iterations` or
-    // `duration`.
+    // An end from outside the script, which may be `iterations` or `duration`, replaces the
+    // script's end.
     const SourceId own_source = stage().span.source;
     const auto is_end = [&](const Declaration& declaration, bool from_outside) {
         return is_end_setting(declaration.name) &&
@@ -142,8 +143,7 @@ void StageChecker::run(const ast::Block& block, const std::vector<const ast::Sta
     };
     const bool has_new_end = std::any_of(declarations.begin(), declarations.end(),
                                          [&](const auto& each) { return is_end(each, true); });
-    // Founders are set first, because the names that other values may read depend on whether there
-    // are founders.
+    // Founders are set first, because they determine which names other values may read.
     for (const bool is_first : {true, false}) {
         for (const Declaration& declaration : declarations) {
             if ((declaration.name == "founders") != is_first) continue;
@@ -187,7 +187,7 @@ bool StageChecker::set_of_cells(const Declaration& declaration) {
     return true;
 }
 
-/// Applies a setting of stages of fields. A stage of cells has `size`, too.
+/// Applies a setting of stages of fields. Stages of cells have one of these settings, `size`, too.
 void StageChecker::set_of_fields(const ast::Statement& statement) {
     if (statement.name.text == "size") {
         const auto wanted = read_number(work_, script_, statement);
@@ -329,7 +329,7 @@ void StageChecker::order_items() {
     for (const Formula& formula : stage().items) items.push_back(&formula);
     Order order = topological_order(item_dependencies(items));
     for (const auto& cycle : order.cycles) {
-        // If all values in the cycle are defaults, the cycle was reported with the system.
+        // If all values in the cycle are defaults, the cycle has been reported with the system.
         const bool is_default = std::all_of(cycle.begin(), cycle.end(),
                                             [&](auto item) { return from_system_[ItemId(item)]; });
         if (!is_default) report_item_cycle(work_, system(), items, from_system_, cycle);
@@ -337,8 +337,8 @@ void StageChecker::order_items() {
     for (const std::uint32_t item : order.order) stage().order.emplace_back(item);
 }
 
-/// Finds the uniform items, which read nothing that varies by cell. An aggregate over the domain is
-/// a single number, whatever its operand is.
+/// Finds the uniform items, which are those that read nothing that varies by cell. An aggregate
+/// over the domain is a single number, even if its operand varies.
 void StageChecker::find_uniform() {
     Stage& target = stage();
     target.uniform.assign(target.items.size(), false);
@@ -351,7 +351,7 @@ void StageChecker::find_uniform() {
             for (const NodeId operand : node.reads()) operand_varies |= varies[operand];
             varies.push_back(differs_by_cell(node, operand_varies, work_.program, index_));
         }
-        // A value that restarts after a division differs from cell to cell.
+        // A value that restarts after a division differs between cells.
         const auto& cells = system().cells;
         const bool starts_again =
             cells && item < cells->restarts.next() && !cells->restarts[item].nodes.empty();

@@ -72,7 +72,7 @@ std::optional<WrittenSide> read_side(Workspace& work, const ast::Script& script,
         return std::nullopt;
     }
     if (!call) return WrittenSide{*kind, std::nullopt};
-    // The nodes of the only argument come directly before the call.
+    // The call has one argument, whose nodes come directly before the call.
     return WrittenSide{*kind,
                        ast::Expression{written.first, script.arguments[call->first_argument]}};
 }
@@ -97,7 +97,8 @@ std::vector<Side> sides_of_word(std::string_view word) {
 
 namespace {
 
-/// Moves statements about `sides` to the front, because rules for single sides replace them.
+/// Moves statements about all `sides` to the front, because rules for single sides replace the
+/// rules of these statements.
 std::vector<const ast::Statement*> in_order(std::span<const ast::Statement> statements) {
     std::vector<const ast::Statement*> ordered;
     for (const ast::Statement& statement : statements) ordered.push_back(&statement);
@@ -107,7 +108,7 @@ std::vector<const ast::Statement*> in_order(std::span<const ast::Statement> stat
     return ordered;
 }
 
-/// The span of the name that a statement sets, such as `u.left`.
+/// The span of the name that a statement sets, with the side: `u.left`.
 Span head_of(const ast::Statement& statement) {
     return join(statement.name.span, statement.side.span);
 }
@@ -128,7 +129,7 @@ bool is_known_along_side(Workspace& work, const System& system, const Formula& v
 
 namespace {
 
-/// Collects the rules of statements. Later rules replace earlier ones.
+/// Collects the rules in statements. A later rule replaces an earlier rule for the same side.
 class RuleChecker {
 public:
     RuleChecker(Workspace& work, const ast::Script& script, const Scope& scope)
@@ -143,7 +144,7 @@ public:
                 if (!is_replaced(each)) check(each);
             }
         }
-        // u[2].left overrides u[i].left.
+        // The order makes u[2].left override u[i].left.
         std::ranges::stable_sort(rules_, std::greater(), &Rule::indices);
         std::vector<SubjectSide> sides;
         for (const bool of_all : {true, false}) {
@@ -157,12 +158,12 @@ public:
 private:
     struct Rule {
         SubjectSide side;
-        std::size_t indices = 0;  ///< The number of indices with a name: one in u[i], none in u[2].
-        bool is_of_all = false;   ///< Whether the rule is for `sides`, not for a single side.
+        std::size_t indices = 0;  ///< How many indices are names: one in u[i], none in u[2].
+        bool is_of_all = false;  ///< Whether the rule is for all `sides` and not for a single side.
     };
 
-    /// Whether the rule replaces an earlier rule for the same side. A second statement about the
-    /// same side is an error.
+    /// Whether an earlier rule has the same side and subject. If so, the second statement is
+    /// reported as an error.
     bool is_replaced(const Declaration& declaration) {
         const std::string side(declaration.statement->side.text);
         const std::string what = declaration.name + "." + side;
@@ -175,8 +176,8 @@ private:
         return !is_new;
     }
 
-    /// Whether a species or definition may have this rule. A definition has no diffusion, so no
-    /// flux, and cannot be periodic by itself.
+    /// Whether a species or definition may have this rule. A definition has no diffusion, so it
+    /// cannot have a flux, and it cannot be periodic by itself.
     bool is_for(const SideSubject& subject, const WrittenSide& written,
                 const ast::Statement& statement) {
         const bool is_of_species =

@@ -1,4 +1,4 @@
-// Checks calls: number of arguments, types, and constants. check_context.cpp checks their contexts.
+// Checks the arguments of calls. check_context.cpp checks whether calls are allowed where they are.
 #include "core/check.h"
 #include "core/palette.h"
 #include "ir/space.h"
@@ -21,7 +21,7 @@ namespace cascade::checking {
 namespace {
 
 constexpr double largest_of_points = 1e15;
-/// Functions that require `over`, as in sum(e over i).
+/// Functions that must be called with `over`, as in sum(e over i).
 constexpr std::array<std::string_view, 4> only_over{"sum", "mean", "product", "integral"};
 
 std::string number_of_values(Arity arity) {
@@ -63,8 +63,8 @@ void ExpressionChecker::visit(const ast::Call& call) {
     apply(is_length ? Function::length : *function, operands, call.argument_count);
 }
 
-/// Registers a distance(…) or keys(…). Its arguments must be constant, because the value is
-/// computed once per cell, before the run.
+/// Registers a distance(…) or keys(…). The arguments must be constant, because the value is
+/// computed only once per cell, before the run.
 void ExpressionChecker::take_surface_value(Function function, const ast::Call& call) {
     SurfaceValue value{function, {}};
     for (std::uint32_t k = 0; k < call.argument_count; ++k) {
@@ -93,7 +93,7 @@ void ExpressionChecker::take_surface_value(Function function, const ast::Call& c
 }
 
 /// Checks an aggregate over the domain, over touching cells or over near cells, such as mean(e over
-/// domain). Aggregates over an index have been expanded before.
+/// domain). Aggregates over an index have already been expanded.
 void ExpressionChecker::visit(const ast::Over& over) {
     const auto function = function_over(over.function.text, over.index.text);
     if (!function) {
@@ -129,8 +129,8 @@ void ExpressionChecker::wrong_count(Function function, std::size_t count) {
           std::move(hint));
 }
 
-/// A hint about u(…), where u is a number. The arguments may be meant as another cell or another
-/// time.
+/// A hint about u(…), where u is a number. By the arguments, the author may mean another cell or
+/// another time.
 std::string ExpressionChecker::hint_of_number(const ast::Call& call) const {
     const auto argument = [&](std::uint32_t k) -> const ast::Expr& {
         return script_.expressions[script_.arguments[call.first_argument + k]];
@@ -191,7 +191,7 @@ void report_unknown_function(Workspace& work, const ast::Word& name,
             const FunctionInfo& row = info(static_cast<Function>(i));
             if (row.is_named) names.emplace_back(row.spelling);
         }
-        // A single letter resembles too many names.
+        // No suggestion is made for a single letter, because too many names are similar to it.
         if (name.text.size() > 1) hint = did_you_mean(work, name.text, names);
         if (hint.empty()) {
             hint = fmt::format("define the function, as in fn {}(a, b) = …", name.text);
@@ -272,7 +272,7 @@ void ExpressionChecker::check_choice(Node& node, NodeId a, NodeId b) {
     parts_.back().turned = parts_[a].turned || parts_[b].turned;
 }
 
-/// Warns of colour components above 1, because rgb(255, 128, 0) would be yellow.
+/// Warns of colour components above 1. For example, rgb(255, 128, 0) would be yellow.
 void ExpressionChecker::check_rgb(const Node& node) {
     std::array<double, 3> parts{};
     for (std::size_t k = 0; k < parts.size(); ++k) {
@@ -314,8 +314,8 @@ void ExpressionChecker::check_palette(const Node& node) {
     formula_.nodes.back().type = ValueType::colour;
 }
 
-/// Warns of a whole number that is more than a full turn in radians. The number is probably meant
-/// in degrees.
+/// Warns of an angle that is a whole number above a full turn in radians. The author probably means
+/// degrees.
 void ExpressionChecker::check_angle(const Node& node) {
     const bool is_stripe = node.function == Function::stripe && node.operand_count == 3;
     if (node.function != Function::diffuse && node.function != Function::tensor && !is_stripe)
@@ -337,8 +337,8 @@ void ExpressionChecker::warn(Span span, std::string message, std::string hint) {
     work_.diagnostics.add(std::move(diagnostic));
 }
 
-/// Checks noise and lattices. Their first argument is a length. The octaves of noise must be
-/// constant.
+/// Checks noise and lattices. Their first argument must be a length. The number of octaves of noise
+/// must be constant.
 void ExpressionChecker::check_lattice(Node& node) {
     const Part& side = parts_[node.operands[0]];
     if (side.constant && !(side.value > 0)) {

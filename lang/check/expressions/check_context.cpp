@@ -7,7 +7,7 @@ namespace cascade::checking {
 
 namespace {
 
-/// Describes the contexts in which a function may be called; null if it may be called in `context`.
+/// The contexts in which a function may be called, in words. Null if it may be called in `context`.
 const char* where_it_belongs(Contexts contexts, Context context) {
     const bool at_step = context == Context::rate;
     const bool at_start = context == Context::value || context == Context::mask;
@@ -80,8 +80,8 @@ bool ExpressionChecker::belongs_here(Function function, Span span) {
         return refuse("use lap(e) or sums over neighbours: cells that crawl have no grid");
     }
     const char* const where = where_it_belongs(row.places, context);
-    // A cell that crawls reads the domain at its own position. The kernel of a convolution is
-    // computed before the stage.
+    // A crawling cell can read the domain at its own position. The kernel of a convolution can read
+    // files, because it is computed before the stage.
     const bool reads_early = row.places == Contexts::values && context == Context::rate &&
                              reads_file(function) && (in_cells() || stands_in_kernel());
     return where == nullptr || reads_early || refuse(where);

@@ -1,9 +1,9 @@
-// Checks the kernels of convolutions: the names that they read, and that they are the same in all
+// Checks the kernels of convolutions: which names they read, and whether they are the same in all
 // cells.
 //
-// A kernel is not part of the formula that calls convolve, because it is computed for lags, not for
-// cells. A kernel is stored in the literals of the program, and the call contains the index of the
-// kernel.
+// A kernel is not a part of the formula that calls convolve, because the kernel is computed for
+// lags and not for cells. A kernel is stored in the literals of the program, and the call contains
+// the index of the kernel.
 #include "lang/check/expressions/check_convolution.h"
 
 #include "lang/check/expressions/expression_checker.h"
@@ -21,7 +21,7 @@ namespace {
 constexpr const char* what_kernels_read =
     "a kernel can contain only numbers, parameters, distance, direction and files";
 
-/// Calls visit(operand) for the operands of a node of the syntax tree.
+/// Calls visit(operand) for each operand of a node of the syntax tree.
 template <typename Visit>
 void for_each_operand(const ast::Script& script, const ast::Expr& expression, const Visit& visit) {
     const auto& node = expression.node;
@@ -96,7 +96,7 @@ bool ExpressionChecker::take_lag(std::string_view name) {
     return true;
 }
 
-/// Whether the formula can be computed for each lag separately. Otherwise reports an error.
+/// Whether the formula can be computed for each lag separately. Reports an error if not.
 bool ExpressionChecker::is_kernel(NodeId root, bool reads_lags) {
     static const System none;
     const System& system =
@@ -112,7 +112,7 @@ bool ExpressionChecker::is_kernel(NodeId root, bool reads_lags) {
     return true;
 }
 
-/// Checks convolve(k, e) or convolve(k, e, r). Only the operand e remains in the node.
+/// Checks convolve(k, e) or convolve(k, e, r). In the node, only the operand e remains.
 void ExpressionChecker::take_convolution(const ast::Call& call) {
     std::vector<NodeId> parts;
     for (std::uint32_t k = 0; k < call.argument_count; ++k) {

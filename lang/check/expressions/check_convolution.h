@@ -7,8 +7,8 @@
 
 namespace cascade::checking {
 
-/// Checks that the parameters in the kernels of a stage's convolutions are the same in all cells
-/// and known before the stage starts.
+/// Checks the parameters that the kernels of a stage's convolutions read. These parameters must be
+/// the same in all cells and known before the stage starts.
 void check_kernels_of_stage(Workspace& work, std::uint32_t index);
 
 }  // namespace cascade::checking

@@ -1,5 +1,5 @@
-// Checks directions by a table of their arguments. Evaluates the numbers, and refuses vectors of
-// length 0.
+// Checks the arguments of directions against a table of all directions. Evaluates the arguments
+// that are numbers, and refuses vectors of length 0.
 #include "lang/check/expressions/check_directions.h"
 
 #include "lang/check/expressions/expression_checker.h"
@@ -17,8 +17,8 @@ namespace cascade::checking {
 namespace {
 
 // The default smoothing of directions, in units of the model's longest side. Curvature is estimated
-// triangle by triangle, so its directions are smoothed a little. The directions of keys jump
-// between the regions of two keys, so they are smoothed more.
+// triangle by triangle, so directions of curvature are smoothed a little. Directions of keys jump
+// between the regions of two keys, so these directions are smoothed more.
 constexpr double smoothing_of_curvature = 0.02;
 constexpr double smoothing_of_keys = 0.1;
 constexpr double largest_number = 1e15;
@@ -26,8 +26,8 @@ constexpr double largest_number = 1e15;
 struct DirectionName {
     std::string_view word;
     DirectionSettings::Kind kind;
-    Arity arity;       ///< The number of arguments without the optional smoothing.
-    double smoothing;  ///< The default of the smoothing.
+    Arity arity;       ///< The number of arguments, not counting the optional smoothing.
+    double smoothing;  ///< The smoothing if the script gives none.
     std::string_view form;
 };
 constexpr std::array<DirectionName, 5> direction_names{{
@@ -48,7 +48,7 @@ const DirectionName* direction_named(std::string_view word) {
     return nullptr;
 }
 
-/// The numbers in brackets. Reports an error and returns nothing if a number is not constant.
+/// The numbers in the brackets. If a number is not constant, reports an error and returns nullopt.
 std::optional<std::vector<WrittenNumber>> numbers_of(Workspace& work, const ast::Script& script,
                                                      std::span<const ast::Expression> arguments) {
     std::vector<WrittenNumber> numbers;
@@ -60,8 +60,8 @@ std::optional<std::vector<WrittenNumber>> numbers_of(Workspace& work, const ast:
     return numbers;
 }
 
-/// Whether every vector of the setting has a length other than 0. A vector is the last three of
-/// every `stride` numbers.
+/// Whether every vector among the numbers has a length other than 0. The numbers are groups of
+/// `stride`. The last three numbers of each group are a vector.
 bool has_lengths(std::span<const double> numbers, std::size_t stride) {
     for (std::size_t k = stride - 3; k + 2 < numbers.size(); k += stride) {
         if (numbers[k] == 0 && numbers[k + 1] == 0 && numbers[k + 2] == 0) return false;
@@ -147,7 +147,7 @@ std::optional<DirectionSettings> check_directions(Workspace& work, const ast::Sc
     return direction_of(work, word, *numbers, value.span, "for example, directions: {}");
 }
 
-/// Registers a direction of the model that `along` takes in place of a vector.
+/// Registers a direction of the model, which `along` accepts in place of a vector.
 void ExpressionChecker::take_direction(std::string_view word,
                                        std::span<const ast::ExprId> arguments) {
     const Span span = formula_.nodes.back().span;

@@ -11,8 +11,8 @@
 
 namespace cascade::checking {
 
-/// Whether the word is the name of a direction of a model, such as `axis`. Otherwise the setting
-/// gives a vector.
+/// Whether the word is the name of a direction of a model, such as `axis`. If it is not, the
+/// setting gives a vector.
 bool names_direction(std::string_view word);
 
 struct WrittenNumber {
@@ -20,8 +20,8 @@ struct WrittenNumber {
     Span span;
 };
 
-/// The direction called `word` with these numbers in brackets. Reports an error and returns nothing
-/// if the direction does not take these numbers. `form` is the format string of a hint.
+/// The direction called `word`, with these numbers in brackets. If the direction does not accept
+/// the numbers, reports an error and returns nullopt. `form` is the format string of a hint.
 std::optional<DirectionSettings> direction_of(Workspace& work, std::string_view word,
                                               std::span<const WrittenNumber> numbers, Span span,
                                               std::string_view form);

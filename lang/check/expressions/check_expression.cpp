@@ -1,4 +1,5 @@
-// Checks one expression: each node of the syntax tree becomes a node of a formula, in order.
+// Checks one expression: turns each node of the syntax tree into a node of a formula, in the same
+// order.
 #include "lang/check/expressions/expression_checker.h"
 
 #include "core/palette.h"
@@ -45,9 +46,9 @@ std::optional<CheckedExpression> ExpressionChecker::run() {
     return checked;
 }
 
-/// Replaces names of definitions by their formulas, for pictures. Returns false and reports an
-/// error if a definition is random. Also returns false, without a message, if errors have left the
-/// system incomplete.
+/// Replaces the names of definitions by the formulas of the definitions, for pictures. If a
+/// definition is random, reports an error and returns false. If errors have left the system
+/// incomplete, returns false without a message.
 bool ExpressionChecker::put_definitions_in(Formula& formula) {
     const auto is_definition = [](const Node& node) { return node.is<DefinitionId>(); };
     if (std::ranges::none_of(formula.nodes, is_definition)) return true;
@@ -69,9 +70,9 @@ bool ExpressionChecker::put_definitions_in(Formula& formula) {
     return false;
 }
 
-/// Finds the operands that must be strings (names of palettes and files), and operands of `along`
-/// that name a direction. A bare word in place of a string is reported as a string without quotes,
-/// not as an unknown name. Skips calls that contain errors.
+/// Finds the operands that must be strings (names of palettes and files), and the operands of
+/// `along` that name a direction. A bare word where a string is needed is reported as a string
+/// without quotes and not as an unknown name. Calls that contain errors are skipped.
 void ExpressionChecker::find_places_of_words() {
     wants_text_.assign(expression_.root - expression_.first + 1, false);
     is_direction_ = wants_text_;
@@ -98,7 +99,7 @@ void ExpressionChecker::find_places_of_words() {
             wants_text_[part_of(script_.arguments[end - 1])] = true;
         } else if (reads_file(*function)) {
             wants_text_[part_of(script_.arguments[call->first_argument])] = true;
-            // If the number of arguments is even, one of them is a channel.
+            // If the number of arguments is even, one argument is a channel.
             const bool has_channel = function == Function::image && call->argument_count % 2 == 0;
             if (has_channel)
                 wants_text_[part_of(script_.arguments[call->first_argument + 1])] = true;
@@ -138,7 +139,7 @@ void ExpressionChecker::visit(const ast::Name& name) {
         return error(span, fmt::format("'{}' is a palette", name.name),
                      fmt::format("write palette(u, 0, 1, \"{}\")", name.name));
     }
-    // In the body of a function, the name does not refer to a parameter of the system in which the
+    // In the body of a function, the name does not mean a parameter of the system in which the
     // function is called.
     if (work_.call && is_of_each_cell(name.name) && !in_cells()) {
         return error(span, fmt::format("'{}' can be used only by cells that crawl", name.name));

@@ -23,7 +23,7 @@ struct CheckedExpression {
 /// Checks an expression: resolves names, counts arguments, checks types and contexts, and finds
 /// divisions by zero. Calls of the script's own functions, families and aggregates over an index
 /// are expanded first. The formula's nodes are in the same order as the expression's nodes. Returns
-/// nothing if there was an error, which this function or the parser has reported.
+/// nullopt if there was an error, which this function or the parser has reported.
 std::optional<CheckedExpression> check_expression(Workspace& work, const ast::Script& script,
                                                   ast::Expression expression, const Scope& scope);
 
@@ -39,34 +39,35 @@ std::optional<CheckedExpression> check_number(Workspace& work, const ast::Script
 std::optional<CheckedExpression> check_vector(Workspace& work, const ast::Script& script,
                                               ast::Expression expression, const Scope& scope);
 
-/// The name of a type in messages, and the hint if a value of this type is written instead of a
-/// number.
+/// How messages name a type, and a hint for a value of this type where a number is needed.
 struct TypeWords {
     std::string_view name, hint;
 };
 TypeWords words_of(ValueType type, bool in_cells);
-/// The hint if another value is written instead of a vector.
+/// The hint for another value where a vector is needed.
 constexpr const char* vectors_are(bool in_cells) {
     return in_cells ? "such as p, normal or vector(1, 0, 0)" : "such as grad(e) or vector(ex, ey)";
 }
 
-/// The greatest depth to which operators may be nested. Each level of nesting takes a pass over the
+/// The largest depth to which operators may be nested. Each level of nesting needs a pass over the
 /// grid.
 inline constexpr std::uint32_t most_nested_operators = 32;
 
-/// The nesting depth of the operators in a formula. `of_leaf` gives the depth of its leaves
-/// (definitions, rates, items). Reports an error at the first operator that is nested too deeply.
+/// The depth to which operators in a formula are nested. `of_leaf` gives the depth of each leaf (a
+/// definition, a rate or an item). Reports an error at the first operator that is nested too
+/// deeply.
 template <typename DepthOfLeaf>
 std::uint32_t check_nesting(Workspace& work, const Formula& formula, const DepthOfLeaf& of_leaf);
 
-/// The value of a constant expression, in double precision. Reports errors. In their messages,
-/// `subject` is the name of the constant. If the value has a unit, its dimension must be
-/// `dimension`, unless this is empty.
+/// The value of a constant expression, in double precision. Reports errors, in which `subject` is
+/// the name of the constant. If the value has a unit, the dimension of the unit must be
+/// `dimension`. If `dimension` is empty, any unit is allowed.
 std::optional<double> check_constant(Workspace& work, const ast::Script& script,
                                      ast::Expression expression, std::string_view subject,
                                      std::optional<Dimension> dimension = Dimension{});
 
-/// Whether the unit of a constant formula, if it has one, has this dimension. Reports errors.
+/// Whether the unit of a constant formula has this dimension. A formula without a unit is allowed.
+/// Reports errors.
 bool check_unit_of_constant(Workspace& work, const Formula& formula, std::string_view subject,
                             const Dimension& dimension);
 

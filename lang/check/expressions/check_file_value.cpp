@@ -1,6 +1,6 @@
 // Checks functions that read data named by a text: a file, or an attribute of a model's points.
-// Their other arguments, a channel and a position in the file, are known before the run. So they
-// are not part of the formula but stored in the literals of the program, and the call contains
+// Their other arguments, a channel and a position in the file, are known before the run. So these
+// arguments are stored in the literals of the program and not in the formula. The call contains
 // their index.
 #include "lang/check/expressions/expression_checker.h"
 
@@ -11,7 +11,7 @@ namespace cascade::checking {
 
 namespace {
 
-/// Whether the node depends on the cell's position but is known before the run.
+/// Whether the node depends on the cell's position and is known before the run.
 bool is_of_place(const Node& node) {
     const auto* const builtin = node.as<Builtin>();
     return builtin != nullptr && *builtin != Builtin::t && *builtin != Builtin::step &&
@@ -20,8 +20,8 @@ bool is_of_place(const Node& node) {
 
 }  // namespace
 
-/// Whether the formula of a position can be computed before the run, for each cell or, in a kernel,
-/// for each lag. Otherwise reports an error.
+/// Whether the formula of a position can be computed before the run, either for each cell or, in a
+/// kernel, for each lag. Reports an error if not.
 bool ExpressionChecker::is_place_in_file(NodeId root) {
     need(root, ValueType::number);
     if (parts_.back().has_error) return false;
@@ -44,8 +44,8 @@ bool ExpressionChecker::is_place_in_file(NodeId root) {
 }
 
 /// Checks attr("name"), field("a.npy") and image("f.png"). A position may follow: two or three
-/// numbers for a field, two for an image. An image may also have a channel. Only the text remains
-/// in the node.
+/// numbers for a field, two for an image. For an image, a channel may be given, too. In the node,
+/// only the text remains.
 void ExpressionChecker::take_file_value(Function function, const ast::Call& call) {
     std::vector<NodeId> parts;
     for (std::uint32_t k = 0; k < call.argument_count; ++k) {
@@ -87,7 +87,7 @@ void ExpressionChecker::take_file_value(Function function, const ast::Call& call
 }
 
 /// Checks along(image("f.png")). The red channel of the image is the direction's component to the
-/// right, and the green channel the component upwards.
+/// right, and the green channel is its upward component.
 void ExpressionChecker::take_painted_direction(NodeId image) {
     const Node& painted = formula_.nodes[image];
     FileReading reading = work_.program.literals->reading(painted.as<Call>()->detail);

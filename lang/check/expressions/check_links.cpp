@@ -1,4 +1,4 @@
-// Checks sums over neighbours in systems of cells that crawl.
+// Checks sums over neighbours in systems of crawling cells.
 //
 // Inside sum(e over touching), names mean the neighbour's values, own(e) means the cell's value,
 // and values of the link between the two cells can be read. So the meaning of a name depends on
@@ -14,11 +14,12 @@ namespace cascade::checking {
 
 namespace {
 
-/// The ways in which other nodes read a node.
+/// In which ways other nodes read a node.
 struct ReadBy {
-    bool by_cell = false;      ///< As the value of the cell.
-    bool by_link = false;      ///< As the value of a neighbour, inside a sum over neighbours.
-    bool as_distance = false;  ///< As the distance in near(d).
+    bool by_cell = false;  ///< Whether the node is read as the value of the cell.
+    /// Whether the node is read as the value of a neighbour, in a sum over neighbours.
+    bool by_link = false;
+    bool as_distance = false;  ///< Whether the node is read as the distance in near(d).
 };
 
 bool may_differ_by_cell(const Node& node, const System& system) {
@@ -40,8 +41,8 @@ void ExpressionChecker::check_link(Node& node) {
     node.type = ValueType::vector;
 }
 
-/// Checks that every node has a value where the formula reads it: in a cell, on a link or as a
-/// distance. Otherwise reports errors and returns false.
+/// Whether every node has a value where the formula reads it: in a cell, on a link or as a
+/// distance. Reports an error if not.
 bool ExpressionChecker::has_places(NodeId root) {
     IdVector<NodeId, ReadBy> readers(root.index() + 1);
     readers[root].by_cell = true;

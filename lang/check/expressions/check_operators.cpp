@@ -1,8 +1,8 @@
 // Checks operators of derivatives, and the vectors and tensors that some of them take.
 //
-// Vectors and tensors have the same arithmetic in all systems: they are added, multiplied by
-// numbers, and a tensor multiplies a vector. In a system of fields, div takes vectors at the faces
-// of cells. In a system of cells that crawl, vectors are positions and directions in space.
+// Vectors and tensors have the same arithmetic in all systems: they can be added and multiplied by
+// numbers, and a vector can be multiplied by a tensor. In a system of fields, div takes vectors at
+// the faces of cells. In a system of crawling cells, vectors are positions and directions in space.
 #include "lang/check/expressions/expression_checker.h"
 #include "lang/program/stencils.h"
 #include "lang/vocabulary/function_groups.h"
@@ -34,8 +34,8 @@ TypeWords words_of(ValueType type, bool in_cells) {
 
 namespace {
 
-/// Whether arithmetic has a meaning for these types. Sums take two operands of the same type.
-/// Products of a vector take a number or a tensor. Divisors must be numbers.
+/// Whether arithmetic has a meaning for these types. Both operands of a sum must have the same
+/// type. A vector can be multiplied only by a number or a tensor. Divisors must be numbers.
 bool fits(Function function, ValueType left, ValueType right) {
     const bool is_left_number = left == ValueType::number,
                is_right_number = right == ValueType::number;
@@ -148,7 +148,8 @@ void ExpressionChecker::check_geometry(Node& node) {
     }
 }
 
-/// Whether the part is a constant. If so, reports that its derivative is probably a mistake.
+/// Whether the operand of a derivative is a constant. If so, reports that the derivative is
+/// probably a mistake.
 bool ExpressionChecker::is_same_everywhere(NodeId part) {
     if (!parts_[part].constant) return false;
     const Node& node = formula_.nodes.back();
@@ -187,15 +188,15 @@ void ExpressionChecker::check_curl(const Node& node) {
     result.type = ValueType::vector;
 }
 
-/// Checks the numbers of cells of shifted(e, i, j).
+/// Checks the shifts i and j, in cells, of shifted(e, i, j).
 void ExpressionChecker::check_shift(const Node& node) {
     for (std::size_t k = 1; k < node.operand_count; ++k) {
         const Part& cells = parts_[node.operands[k]];
         const bool is_near = cells.constant && cells.value == std::floor(cells.value) &&
                              std::abs(cells.value) <= farthest_shift;
         if (is_near) {
-            // A minus sign is parsed as an operator, so the operand is replaced by its constant
-            // value.
+            // A number with a minus sign is an operator and its operand, so the node is replaced by
+            // its constant value.
             formula_.nodes[node.operands[k]] = {cells.value, formula_.nodes[node.operands[k]].span};
             continue;
         }

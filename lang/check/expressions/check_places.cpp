@@ -1,6 +1,6 @@
-// Warns of positions that are given in cells or lengths, as in `x < 5` or `disc(64, 64, 10)`. The
-// language takes positions as fractions of the longest side, 0 to 1. Comparisons are evaluated on
-// intervals of x, y and z (R. E. Moore, "Interval Analysis", 1966).
+// Warns of positions that are given as numbers of cells or as lengths, as in `x < 5` or `disc(64,
+// 64, 10)`. In the language, positions are fractions of the longest side, from 0 to 1. Comparisons
+// are evaluated on intervals of x, y and z (R. E. Moore, "Interval Analysis", 1966).
 #include "lang/check/expressions/expression_checker.h"
 #include "lang/vocabulary/by_name.h"
 
@@ -21,10 +21,10 @@ namespace {
 struct Interval {
     double low = -std::numeric_limits<double>::infinity();
     double high = std::numeric_limits<double>::infinity();
-    std::string_view place = {};  ///< x, y or z, if the value is computed from this coordinate and
-                                  ///< numbers alone.
+    /// x, y or z, if the value is computed only from this coordinate and numbers.
+    std::string_view place = {};
 
-    /// The least magnitude in the interval.
+    /// The smallest magnitude in the interval.
     double least() const {
         return low <= 0 && high >= 0 ? 0 : std::min(std::abs(low), std::abs(high));
     }
@@ -34,15 +34,15 @@ struct Interval {
         return a.place.empty() ? b.place : a.place;
     }
 
-    /// The interval from the least value to the largest. Has no `place`, because the values are not
-    /// fractions of the longest side, and messages about fractions would be false.
+    /// The interval from the smallest to the largest of the values. It has no `place`, because the
+    /// values are not fractions of the longest side, and messages about fractions would be false.
     static Interval around(std::initializer_list<double> values) {
         const auto [low, high] = std::minmax(values);
         if (std::isnan(low) || std::isnan(high)) return {};
         return {low, high};
     }
 
-    // Functions of intervals, by their names in functions.def. The values of all other functions
+    // Functions of intervals, by their names in functions.def. The results of all other functions
     // are unknown.
     friend Interval add(const Interval& a, const Interval& b) {
         return {a.low + b.low, a.high + b.high, place_of(a, b)};
@@ -72,8 +72,9 @@ struct Interval {
     }
 };
 
-/// Whether the comparison has the same result everywhere, by a wide margin. Without the margin, a
-/// comparison such as `hypot(x - 0.5, y - 0.5) < 0.8` would be reported, which may be intended.
+/// Whether the comparison has the same result everywhere, by a wide margin. Without the margin,
+/// comparisons that the author may intend would be reported, such as `hypot(x - 0.5, y - 0.5) <
+/// 0.8`.
 bool is_decided(Function comparison, const Interval& a, const Interval& b) {
     constexpr double far = 0.5;
     const bool is_of_order =
@@ -87,8 +88,8 @@ bool is_place(const Node& node) {
     return builtin != nullptr && *builtin <= Builtin::sz;
 }
 
-/// The number of operands of a shape, noise or a lattice that are places or lengths. These are the
-/// first operands. 0 for other functions.
+/// How many operands of a shape, noise or a lattice are positions or lengths. They are the first
+/// operands. 0 for other functions.
 std::size_t places_and_lengths(const Node& node) {
     if (node.calls(Function::noise)) return 1;
     if (node.calls(Function::lattice) || node.calls(Function::diamond)) return 2;
@@ -136,7 +137,7 @@ void ExpressionChecker::warn_of_place(Span span, std::string_view place) {
                      : "");
 }
 
-/// Warns of shapes, noise and lattices if their places or lengths are far outside the domain.
+/// Warns of shapes, noise and lattices with positions or lengths far outside the domain.
 void ExpressionChecker::check_shape_in_domain(const Node& node) {
     const std::size_t count = places_and_lengths(node);
     if (count == 0) return;

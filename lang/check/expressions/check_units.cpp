@@ -10,7 +10,8 @@ namespace cascade::checking {
 
 namespace {
 
-// The limits of converted numbers in single precision, as in lang/syntax/expression_operands.cpp.
+// The limits of converted numbers in single precision. The parser has the same limits
+// (lang/syntax/expression_operands.cpp).
 constexpr double too_large_converted = 0x1.ffffffp127;
 constexpr double smallest_converted = 0x1p-126;
 
@@ -23,7 +24,7 @@ void ExpressionChecker::take_unit(const ast::Call& call) {
         parts_.back().has_error = true;
         return;
     }
-    // `2 /s` is a division by s in a system that inherits a name s.
+    // `2 /s` may mean a division by s if the system inherits a name s.
     const std::string_view first = factors_of_unit(text).front().name;
     const bool has_system = scope_.system != unknown_system && scope_.system < work_.names.next();
     if (text.starts_with("1/") && has_system &&

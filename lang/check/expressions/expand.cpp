@@ -111,7 +111,7 @@ void Expander::emit_length(Span span, const ast::Word& name) {
     emit(span, ast::Binary{Function::multiply, place, factor});
 }
 
-/// The length, marked as growing along `axis` if the domain may grow.
+/// The length `length`. If the domain may grow, it is marked as growing along `axis`.
 ast::ExprId Expander::append_grown(Span span, ast::ExprId length, int axis) {
     if (!work_.lengths_grow) return length;
     const ast::ExprId along = append(span, ast::Number{static_cast<double>(axis)});
@@ -139,7 +139,8 @@ void Expander::visit_name(ast::ExprId part, const ast::Name& name) {
     if (values != values_.end() && !values->second.empty()) {
         return emit(here.span, ast::Number{static_cast<double>(values->second.back())});
     }
-    // Outside of brackets of an index, the name may be a parameter of the previous stage.
+    // The error is reported only inside the brackets of an index, because elsewhere the name may be
+    // a parameter of the previous stage.
     if (open_indices_ > 0 && find_index(work_, scope_, name.name) != nullptr) {
         Explanation explanation = index_without_value(name.name);
         return error(here.span, std::move(explanation.message), std::move(explanation.hint));
@@ -176,7 +177,8 @@ void Expander::enter(ast::ExprId part) {
     push(TaskKind::visit, found.function->body.root);
 }
 
-/// Replaces the last result u by the operator a applied to u (lang/syntax/operator_polynomials.h).
+/// Replaces the last result, u, by the result of applying the operator `part` to u
+/// (lang/syntax/operator_polynomials.h).
 void Expander::apply(ast::ExprId part) {
     const ast::Expr& here = expr(part);
     if (!is_operator(script(), part)) {
@@ -221,7 +223,7 @@ void Expander::apply(ast::ExprId part) {
             }
             return;
         }
-        default:  // A sum a + b: u is on the stack twice, and a is applied first.
+        default:  // A sum of operators a + b. u is pushed a second time, and a is applied first.
             results_.push_back(results_.back());
             push(TaskKind::finish, part);
             push(TaskKind::apply, binary.right);

@@ -1,5 +1,5 @@
-// Expands families and aggregates: finds members by the values of their indices, and writes out
-// sums over an index.
+// Expands families and aggregates: finds members by the values of their indices, and replaces a sum
+// over an index by its terms.
 #include "lang/check/expressions/check_expression.h"
 #include "lang/check/expressions/expander.h"
 
@@ -13,7 +13,7 @@ namespace cascade::checking {
 
 namespace {
 
-/// Whether the function is an aggregate that can be taken over an index.
+/// Whether the function is an aggregate that can be called over an index.
 bool is_reduction(std::string_view name) {
     constexpr std::array<std::string_view, 5> names{"sum", "product", "mean", "min", "max"};
     return std::find(names.begin(), names.end(), name) != names.end();
@@ -59,8 +59,8 @@ void Expander::repeat(const Task& task) {
     push(TaskKind::visit, over.operand);
 }
 
-/// Combines the results for all values of the index so far: ((e1 + e2) + e3) + …, min(min(e1, e2),
-/// e3), …
+/// Combines the results for the values of the index that have been visited: ((e1 + e2) + e3) + …,
+/// min(min(e1, e2), e3), …
 void Expander::combine(const Task& task) {
     const ast::Expr& here = expr(task.part);
     const auto& over = std::get<ast::Over>(here.node);
@@ -88,8 +88,8 @@ void Expander::combine(const Task& task) {
     emit(here.span, ast::Binary{Function::divide, sum, divisor});
 }
 
-/// Evaluates the nodes of the indices, which begin at `before`, to numbers. Removes these nodes,
-/// because only the numbers are needed.
+/// Evaluates the nodes of the indices, which begin at `before`, to numbers. Then removes these
+/// nodes, because only the numbers are needed.
 void Expander::finish_member(const ast::Expr& here, const ast::Indexed& member,
                              std::size_t before) {
     --open_indices_;
@@ -125,7 +125,7 @@ void Expander::finish_member(const ast::Expr& here, const ast::Indexed& member,
     emit(here.span, ast::Qualified{other.stage, {here.span, named(other.name.text)}});
 }
 
-/// The whole number to which the nodes [first, last] evaluate. Reports errors.
+/// The integer to which the nodes [first, last] evaluate. Reports errors.
 std::optional<std::int64_t> Expander::index_value(ast::ExprId first, ast::ExprId last, Span span) {
     Scope constant;
     constant.context = Context::constant;

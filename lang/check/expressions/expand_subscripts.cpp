@@ -1,5 +1,5 @@
-// Expands subscripts: u_xx becomes dxx(u), if the system has a species or a definition u and no
-// name u_xx.
+// Expands subscripts: u_xx becomes dxx(u) if the system has a species or a definition called u and
+// has no name u_xx.
 #include "lang/check/expressions/expander.h"
 
 #include "lang/vocabulary/subscripts.h"
@@ -8,8 +8,8 @@
 
 namespace cascade::checking {
 
-/// The system to which names without a prefix refer. Unknown where operators of fields have no
-/// meaning.
+/// The system to which names without a prefix refer. `unknown_system` where operators of fields
+/// have no meaning.
 SystemId Expander::system_of_names() const {
     const bool has_cells = scope_.context == Context::value || scope_.context == Context::rate ||
                            scope_.context == Context::picture;
@@ -36,7 +36,8 @@ void Expander::emit_name(Span span, Span word, std::string_view name, std::strin
     differentiate(span, subscripted->axes);
 }
 
-/// Emits a name in the body of a function: the derivative of a parameter, or the name itself.
+/// Emits a name in the body of a function. If the name is a parameter with a subscript, emits the
+/// derivative of the parameter.
 void Expander::visit_subscripted(Span span, const ast::Name& name) {
     const auto subscripted = subscripted_name(name.name);
     const Frame& frame = frames_.back();

@@ -1,5 +1,5 @@
-// Expands expressions with three stacks: of tasks, of functions whose bodies are being expanded,
-// and of values of indices. Only for this folder.
+// Expands expressions with three stacks: a stack of tasks, a stack of functions whose bodies are
+// being expanded, and a stack of values for each index. Only for this folder.
 #pragma once
 
 #include "core/diagnostics.h"
@@ -17,15 +17,15 @@
 
 namespace cascade::checking {
 
-/// Expands one expression. Each finished node leaves its result, a node of the new expression, on a
-/// stack.
+/// Expands one expression. When a node is finished, its result is pushed on a stack. A result is a
+/// node of the new expression.
 class Expander {
 public:
     Expander(Workspace& work, const ast::Script& script, const Scope& scope)
         : work_(work), scope_(scope) {
         frames_.push_back({&script, nullptr, 0, std::nullopt});
         for (const IndexValue& index : scope.indices) values_[index.name].push_back(index.value);
-        // If the system has a parameter called lap, `lap` is not the operator.
+        // If the system has a parameter called lap, the word `lap` is not the operator.
         has_laplacians_ =
             scope.system == unknown_system || find(work.names[scope.system], "lap") == nullptr;
     }
@@ -34,12 +34,12 @@ public:
 
 private:
     enum class TaskKind : std::uint8_t {
-        visit,    ///< Expand a node and its operands.
-        finish,   ///< The operands are done: write the node.
-        call,     ///< The arguments are done: expand the body of the function or constant.
-        leave,    ///< The body of a function is done: return to its call.
-        repeat,   ///< Set the index of an aggregate to `value` and expand the aggregate's operand.
-        combine,  ///< The aggregate's operand is done for `value`.
+        visit,   ///< Expand a node and its operands.
+        finish,  ///< All operands have been expanded: write the node.
+        call,    ///< All arguments have been expanded: expand the body of the function or constant.
+        leave,   ///< The body of a function has been expanded: return to the function's call.
+        repeat,  ///< Set the index of an aggregate to `value` and expand the aggregate's operand.
+        combine,  ///< The aggregate's operand has been expanded for `value`: combine the results.
         apply,    ///< Apply an operator to the result on top of the stack.
         swap,     ///< Exchange the two results on top of the stack.
         scale,    ///< Multiply the two results on top of the stack.
@@ -47,16 +47,18 @@ private:
     struct Task {
         TaskKind kind = TaskKind::visit;
         ast::ExprId part = 0;
-        std::int64_t value = 0;  ///< The value of an index. For a member: the number of nodes
-                                 ///< before the nodes of its indices.
+        /// For an index, its value. For a member, the number of nodes before the nodes of the
+        /// member's indices.
+        std::int64_t value = 0;
     };
-    /// A function whose body is being expanded. The frame at the bottom is the expression itself.
+    /// A function whose body is being expanded. The first frame is the expression itself, which is
+    /// no function.
     struct Frame {
         const ast::Script* script = nullptr;
         const UserFunction* function = nullptr;
-        std::size_t first_argument = 0;  ///< The position of the function's first argument in
-                                         ///< arguments_.
-        std::optional<Span> call;        ///< The outermost call.
+        /// The position of the function's first argument in `arguments_`.
+        std::size_t first_argument = 0;
+        std::optional<Span> call;  ///< The outermost call that led to this function.
     };
 
     const ast::Script& script() const { return *frames_.back().script; }
@@ -78,7 +80,7 @@ private:
     void apply(ast::ExprId part);
     void repeat(const Task& task);
     void combine(const Task& task);
-    /// The constant of the script that has this name; null if there is none.
+    /// The script's constant with this name; null if there is none.
     const UserFunction* find_constant(std::string_view name) {
         return functions_of(work_, script()).find_constant(name);
     }
@@ -106,12 +108,13 @@ private:
     Expanded out_;
     std::vector<Task> tasks_;
     std::vector<Frame> frames_;
-    std::vector<ast::ExprId> arguments_;  ///< Arguments of the functions in frames_.
-    std::vector<ast::ExprId> results_;    ///< Nodes of out_ that are not yet operands of another
-                                          ///< node.
-    bool has_laplacians_ = true;          ///< Whether `lap` without brackets is the operator.
-    std::size_t open_indices_ = 0;        ///< The number of members whose index is being expanded.
-    /// The values of each index, the innermost last. Bodies of functions cannot read indices.
+    std::vector<ast::ExprId> arguments_;  ///< The arguments of the functions in `frames_`.
+    /// The nodes of `out_` that are not yet an operand of another node.
+    std::vector<ast::ExprId> results_;
+    bool has_laplacians_ = true;    ///< Whether `lap` without brackets is the operator.
+    std::size_t open_indices_ = 0;  ///< The number of members whose indices are being expanded.
+    /// The values that each index has at present. The innermost value is the last. Bodies of
+    /// functions cannot read indices.
     std::unordered_map<std::string_view, std::vector<std::int64_t>> values_;
 };
 

@@ -1,4 +1,5 @@
-// Checks one expression, node by node (internal to the checker). The parts are in several files:
+// Checks one expression, node by node (internal to the checker). The functions are in several
+// files:
 //
 // - check_expression.cpp: the walk over the nodes, names and strings;
 // - check_call.cpp: arguments, types and constants of calls;
@@ -24,12 +25,13 @@ namespace cascade::checking {
 
 /// Facts about a node that the node itself does not contain.
 struct Part {
-    bool has_error = false;  ///< An error has been reported. Nodes that read this node cause no
-                             ///< further messages.
+    /// Whether an error in the node has been reported. Nodes that read this node then cause no
+    /// further messages.
+    bool has_error = false;
     bool constant = false;
     double value = 0;
-    bool turned = false;  ///< Whether the part is a vector multiplied by a tensor, or computed from
-                          ///< such a vector.
+    /// Whether the part is a vector multiplied by a tensor, or computed from such a vector.
+    bool turned = false;
 };
 
 class ExpressionChecker {
@@ -59,8 +61,8 @@ private:
         parts_.back().has_error = true;
     }
 
-    /// Whether the expression belongs to a system of cells that crawl. There a vector consists of
-    /// three numbers.
+    /// Whether the expression belongs to a system of crawling cells. In such a system, a vector
+    /// consists of three numbers.
     bool in_cells() const { return is_of_cells(work_, scope_); }
 
     bool put_definitions_in(Formula& formula);
@@ -130,8 +132,11 @@ private:
     Formula formula_;
     IdVector<NodeId, Part> parts_;
     IdVector<NodeId, bool> wants_text_, is_direction_;
-    IdVector<NodeId, bool> in_kernel_;  ///< Whether a part belongs to the kernel of a convolution.
-    bool has_loose_nodes_ = false;  ///< Whether some nodes of the expression are stored elsewhere.
+    /// For each node, whether it belongs to the kernel of a convolution.
+    IdVector<NodeId, bool> in_kernel_;
+    /// Whether some nodes of the expression do not belong to the formula, because they are stored
+    /// elsewhere.
+    bool has_loose_nodes_ = false;
 };
 
 /// For each node of the expression, whether it belongs to the kernel of a convolution.

@@ -49,7 +49,7 @@ private:
         found_.push_back(
             {second.span, first.span, second.span, of(call, a).dimension, of(call, b).dimension});
     }
-    /// The common measure of operands that must have the same dimension.
+    /// The measure that operands have in common if they must have the same dimension.
     Measure agree(const Node& call, std::size_t first, std::size_t end) {
         std::size_t known = first;
         while (known < end && !of(call, known).is_known()) ++known;
@@ -66,7 +66,7 @@ private:
             });
         return {are_plain ? MeasureKind::plain : MeasureKind::any};
     }
-    /// The operand must be a plain number, and so is the result.
+    /// The measure of a function whose operand and result must be plain numbers.
     Measure plain_of(const Node& call) {
         const Measure& operand = of(call, 0);
         if (operand.is_known() && !operand.dimension.is_none()) {
@@ -91,7 +91,7 @@ private:
         return Measure::of(measure.dimension / Dimension::of(BaseQuantity::length, power));
     }
 
-    /// The value of an exponent that consists of numbers: 2, -1, 1/2.
+    /// The value of an exponent that consists only of numbers: 2, -1, 1/2.
     std::optional<double> constant(NodeId id) const {
         const Node& here = node(id);
         if (const auto* number = here.as<double>()) return *number;

@@ -1,7 +1,7 @@
 // The dimensions of formulas, and whether they are consistent (internal to the checker).
 //
-// A number or a name without a unit fits every dimension. So a formula is checked only where
-// everything in it has a unit.
+// A number or a name without a unit can have any dimension. So contradictions can be found only
+// between parts of a formula that have a unit.
 #pragma once
 
 #include "lang/program/formula.h"
@@ -16,8 +16,8 @@ namespace cascade::checking {
 /// What is known about the dimension of a value.
 struct Measure {
     enum class Kind : std::uint8_t {
-        any,    ///< It has no unit, so it fits every dimension.
-        plain,  ///< A plain number such as 1 or exp(u), whose unit was not written.
+        any,    ///< The value has no unit, so it can have any dimension.
+        plain,  ///< The value is a plain number such as 1 or exp(u), without a unit in the script.
         known,
     };
     Kind kind = Kind::any;
@@ -29,9 +29,9 @@ struct Measure {
 
 /// Two parts of a formula whose dimensions contradict each other.
 struct Contradiction {
-    Span span;    ///< Where to report it.
-    Span first;   ///< The part whose dimension is `left`.
-    Span second;  ///< The part whose dimension is `right`; empty if there is no such part.
+    Span span;    ///< Where to report the contradiction.
+    Span first;   ///< Where the part with the dimension `left` is.
+    Span second;  ///< Where the part with the dimension `right` is; empty if there is no such part.
     Dimension left, right;
     std::string what = {};  ///< The name of the first part in messages, in place of its text.
 };
@@ -40,14 +40,14 @@ struct Contradiction {
 struct MeasureOf {
     const ScriptUnits& units;
     const MeasuredSpans& measured;
-    /// Of an item, a definition, a rate or an item of another stage.
+    /// Returns the measure of an item, a definition, a rate or an item of another stage.
     std::function<Measure(const Node&)> name;
-    /// Of a number without a unit. In starting values it is a plain number; in rates it may be a
-    /// rate whose unit was left out.
+    /// The measure of a number without a unit. In starting values it is `plain`. In rates it is
+    /// `any`, because the number may be a rate whose unit was left out.
     Measure::Kind number = Measure::Kind::any;
 };
 
-/// A dimension for messages: `in um^2/s`, `a plain number`.
+/// A dimension in words for messages: `in um^2/s`, `a plain number`.
 std::string words_of_dimension(const ScriptUnits& units, const Dimension& dimension);
 
 /// The measure of a formula. Adds contradictions to `found`.

@@ -1,5 +1,5 @@
-// Reads settings. The row of a setting contains its allowed values and the message about other
-// values.
+// Reads settings. The row of a setting in settings.def contains the allowed values, and the message
+// about other values.
 #include "lang/check/expressions/read_setting.h"
 
 #include "core/check.h"
@@ -20,7 +20,8 @@ namespace cascade::checking {
 
 namespace {
 
-/// A hint for a number such as `0,0125`. Digits on both sides of a comma suggest a decimal comma.
+/// A hint about a number such as `0,0125`. Digits on both sides of a comma suggest that the comma
+/// is a decimal point.
 std::string hint_of_decimal_comma(const ast::Script& script, const ast::Statement& statement) {
     if (statement.values.size() != 2) return "";
     const Span whole = span_of(script, statement.values[0]);
@@ -92,7 +93,8 @@ std::optional<double> read_number(Workspace& work, const ast::Script& script,
     const auto value =
         check_constant(work, script, statement.values[0], row.word, dimension_of(row.word));
     if (!value || row.limits.contain(*value)) return value;
-    // If a number of steps is below 1, the author may have meant a length of time.
+    // The hint fits any refused number, with one exception: for a number of steps, it fits only
+    // between 0 and 1, where the author may mean a length of time.
     const bool fits = row.limits.kind != SettingLimits::Kind::count || (*value > 0 && *value < 1);
     work.diagnostics.error(value_of(script, statement).span, refusal_of(row, *value),
                            std::string(fits ? row.hint : ""));

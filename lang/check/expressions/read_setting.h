@@ -1,4 +1,5 @@
-// Reads settings whose values are described by their row in settings.def (internal to the checker).
+// Reads the settings whose allowed values are in their row of settings.def (internal to the
+// checker).
 #pragma once
 
 #include "lang/check/expressions/check_expression.h"
@@ -8,15 +9,15 @@
 
 namespace cascade::checking {
 
-/// Whether the statement has exactly one value. Otherwise reports an error at the second value.
+/// Whether the statement has exactly one value. If not, reports an error at the second value.
 bool has_one_value(Workspace& work, const ast::Script& script, const ast::Statement& statement);
 
-/// The number given to a setting. Reports an error and returns nothing if the setting's row does
-/// not allow it.
+/// The number that a setting has. If the setting's row does not allow the number, reports an error
+/// and returns nullopt.
 std::optional<double> read_number(Workspace& work, const ast::Script& script,
                                   const ast::Statement& statement);
-/// The word given to a setting, as its position among the words in the setting's row. Reports an
-/// error and returns nothing if the row does not contain the word.
+/// The word that a setting has, as its position among the words in the setting's row. If the row
+/// does not contain the word, reports an error and returns nullopt.
 std::optional<std::size_t> read_word(Workspace& work, const ast::Script& script,
                                      const ast::Statement& statement);
 

@@ -1,4 +1,4 @@
-// Reads settings as they are written in a script or in an option. The value may be a word, alone or
+// Reads settings from the syntax tree of a script or an option. A value may be a word, alone or
 // with arguments in brackets, as in `surface: torus(1, 0.4)` (internal to the checker).
 #pragma once
 
@@ -14,7 +14,8 @@ inline const ast::Expr& value_of(const ast::Script& script, const ast::Statement
     return script.expressions[statement.values[0].root];
 }
 
-/// The word of a value, with or without arguments in brackets; "" for any other expression.
+/// The word of which a value consists, with or without arguments in brackets; "" for any other
+/// expression.
 inline std::string_view word_of(const ast::Expr& value) {
     if (const auto* name = std::get_if<ast::Name>(&value.node)) return name->name;
     if (const auto* call = std::get_if<ast::Call>(&value.node)) return call->function.text;
@@ -37,22 +38,22 @@ inline std::vector<ast::Expression> arguments_of(const ast::Script& script,
     return arguments;
 }
 
-/// The statement if it gives a value; else null.
+/// Returns the statement if it gives a value; else null.
 inline const ast::Statement* value_statement(const ast::Statement& statement) {
     const bool usable = statement.kind == ast::StatementKind::value && !statement.name.empty() &&
                         !statement.values.empty();
     return usable ? &statement : nullptr;
 }
 
-/// The statement of a `--set` that may set a constant, because it names no stage, side or member.
-/// Else null.
+/// Returns the statement of a `--set` if it may set a constant, because it names no stage, side or
+/// member. Else returns null.
 inline const ast::Statement* constant_statement(const ast::Override& change) {
     const ast::Statement& statement = change.statement;
     const bool is_plain = change.stage.empty() && statement.side.empty() && statement.index.empty();
     return is_plain ? value_statement(statement) : nullptr;
 }
 
-/// The statement of the option for this setting; null if the option is not given.
+/// The statement that the option for this setting gives; null if the option is not used.
 inline const ast::Statement* find_option(const ast::Script& script, std::string_view name) {
     const auto found =
         std::find_if(script.options.begin(), script.options.end(),

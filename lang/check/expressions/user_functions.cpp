@@ -1,5 +1,5 @@
-// Checks the functions and constants of a script: their names, the names that they read, and that
-// no function is recursive.
+// Checks the functions and constants of a script: their names, and the names that they read. Also
+// checks that no function is recursive.
 #include "lang/check/expressions/user_functions.h"
 
 #include "core/counted.h"
@@ -66,7 +66,8 @@ private:
     void check_name(std::uint32_t index, std::string_view name, Span span);
     void check_call(std::uint32_t index, const ast::Call& call, Span span);
     void report_cycle(const std::vector<std::uint32_t>& cycle);
-    /// A library function of cells. Null while these functions themselves are checked.
+    /// The library function of cells with this name. Null while the library functions themselves
+    /// are checked.
     const UserFunction* find_of_cells(std::string_view name) {
         const ast::Script* of_cells = work_.cell_functions;
         if (of_cells == nullptr || of_cells == &script_) return nullptr;
@@ -119,8 +120,8 @@ void FunctionTableMaker::declare(const ast::FunctionDefinition& definition) {
     table_.functions_.push_back(std::move(function));
 }
 
-/// The body of a function. For a constant, the last `--set` without the name of a stage replaces
-/// it.
+/// The body of a function. For a constant, the last `--set` that sets it without naming a stage
+/// replaces the body.
 ast::Expression FunctionTableMaker::body_of(const ast::FunctionDefinition& definition) const {
     ast::Expression body = definition.body;
     if (!definition.is_constant) return body;
@@ -145,8 +146,10 @@ void FunctionTableMaker::check_body(std::uint32_t index) {
     }
     for (ast::ExprId id = body.first; id <= body.root; ++id) {
         const ast::Expr& part = script_.expressions[id];
-        if (is_family[id - body.first]) continue;                // Reported with its index.
-        if (name_of_length(script_, part) != nullptr) continue;  // Checked in each call.
+        // The member is reported together with its index.
+        if (is_family[id - body.first]) continue;
+        // The length is checked in each call.
+        if (name_of_length(script_, part) != nullptr) continue;
         if (const auto* name = std::get_if<ast::Name>(&part.node)) {
             check_name(index, name->name, part.span);
         } else if (const auto* call = std::get_if<ast::Call>(&part.node)) {
@@ -223,7 +226,8 @@ void FunctionTableMaker::report_cycle(const std::vector<std::uint32_t>& cycle) {
         names.emplace_back(table_.functions_[function].definition->name.text);
         has_constant |= table_.functions_[function].definition->is_constant;
     }
-    // The place where the first function of the cycle calls the next function, or itself.
+    // Finds where the first function of the cycle calls the next function (or itself, if it is the
+    // only one).
     const ast::Expression body = table_.functions_[cycle[0]].body;
     const std::string& next = names[1 % names.size()];
     Span span = table_.functions_[cycle[0]].definition->name.span;

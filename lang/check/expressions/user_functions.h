@@ -18,21 +18,24 @@ namespace cascade::checking {
 
 struct UserFunction {
     const ast::FunctionDefinition* definition = nullptr;
-    ast::Expression body;  ///< As defined. For a constant changed by `--set`, the new value.
-    std::unordered_map<std::string_view, std::uint32_t> parameters;  ///< The index of each
-                                                                     ///< parameter, by its name.
-    bool has_error = false;  ///< An error has been reported. Calls cause no further messages.
+    /// The body in the definition. If `--set` changes a constant, the new value.
+    ast::Expression body;
+    /// The index of each parameter, by its name.
+    std::unordered_map<std::string_view, std::uint32_t> parameters;
+    /// Whether an error in the function has been reported. Calls of the function then cause no
+    /// further messages.
+    bool has_error = false;
 };
 
 /// The functions of one script, by name.
 class FunctionTable {
 public:
-    /// Null if the script has no function of this name.
+    /// The function with this name; null if the script has none.
     const UserFunction* find(std::string_view name) const {
         const auto found = by_name_.find(name);
         return found == by_name_.end() ? nullptr : &functions_[found->second];
     }
-    /// Null if the script has no constant of this name.
+    /// The constant with this name; null if the script has none.
     const UserFunction* find_constant(std::string_view name) const {
         const UserFunction* found = find(name);
         return found != nullptr && found->definition->is_constant ? found : nullptr;
@@ -46,7 +49,7 @@ private:
     std::unordered_map<std::string_view, std::uint32_t> by_name_;
 };
 
-/// Whether names of some functions or systems are unknown, because a used file or the name of a
+/// Whether the names of some functions or systems are unknown, because a used file or the name of a
 /// function could not be read.
 bool lacks_names(const ast::Script& script);
 
@@ -57,8 +60,8 @@ struct FoundFunction {
     explicit operator bool() const { return function != nullptr; }
 };
 
-/// The function to which a call in `script` refers: a function of the script or, if there is none
-/// of this name, a library function of cells. Empty if there is neither.
+/// The function to which a call in `script` refers: a function of the script or, if the script has
+/// none of this name, a library function of cells. Empty if neither exists.
 FoundFunction find_function(Workspace& work, const ast::Script& script, std::string_view name);
 
 /// Whether the name is a function of the language or an aggregate over an index.
@@ -68,14 +71,14 @@ bool is_function_name(std::string_view name);
 void report_unknown_function(Workspace& work, const ast::Word& name,
                              const std::vector<std::string>& own);
 
-/// Whether a call has as many arguments as the function has parameters. Otherwise reports an error.
+/// Whether a call has as many arguments as the function has parameters. Reports an error if not.
 bool has_right_count(Workspace& work, const UserFunction& function, const ast::Call& call,
                      Span span);
 
 /// The functions and constants of a script. They are checked when they are first requested.
 const FunctionTable& functions_of(Workspace& work, const ast::Script& script);
 
-/// Reports constants that share their name with a parameter, definition or index of a system,
+/// Reports constants that have the same name as a parameter, definition or index of a system,
 /// because a reader could not tell which of the two an expression means.
 void check_names_of_constants(Workspace& work, const ast::Script& script);
 

@@ -1,4 +1,5 @@
-// Resolves names: from a word in an expression to an item, a definition or a built-in value.
+// Resolves names: finds the item, the definition or the built-in value that a word in an expression
+// means.
 #include "lang/check/names/check_names.h"
 
 #include "lang/check/names/note_uses.h"
@@ -20,7 +21,7 @@ const System& system_at(const Workspace& work, SystemId index) {
     return work.program.systems[index];
 }
 
-/// Whether an expression in this scope cannot read the names of a system.
+/// Whether the names of a system cannot be read by an expression in this scope.
 bool is_constant(const Scope& scope) {
     return scope.context == Context::constant || scope.context == Context::position ||
            scope.context == Context::mask || scope.context == Context::shape;
@@ -66,7 +67,7 @@ std::optional<Node> resolve_builtin(Workspace& work, const Scope& scope, std::st
     return Node{*builtin_named(name), span};
 }
 
-/// Reports words of the language that are not values of a stage.
+/// Reports words of the language that do not name values of a stage.
 bool report_reserved(Workspace& work, const Scope& scope, std::string_view name, Span span) {
     const Reserved kind = reserved(name);
     if (is_constant(scope)) {
@@ -80,8 +81,8 @@ bool report_reserved(Workspace& work, const Scope& scope, std::string_view name,
     return false;
 }
 
-/// Whether an expression in this scope can read definitions. In rates the values of definitions are
-/// known. For sides and pictures, they are computed.
+/// Whether an expression in this scope can read definitions. In rates, the values of definitions
+/// are known. For sides and pictures, definitions are computed.
 bool reads_definitions(const Scope& scope) {
     return scope.context == Context::rate || scope.context == Context::picture || scope.is_side;
 }
@@ -188,7 +189,7 @@ std::vector<std::string> stage_names(const Workspace& work, std::size_t count) {
     return names;
 }
 
-/// The stage called `stage` in `stage.name`. Reports an error if it cannot be read.
+/// The stage called `stage` in `stage.name`. Reports an error if the scope cannot read the stage.
 std::optional<std::uint32_t> find_stage(Workspace& work, const Scope& scope,
                                         const ast::Qualified& qualified) {
     const std::string_view name = qualified.stage.text;
@@ -251,7 +252,7 @@ std::optional<Node> resolve_bracketed(Workspace& work, const Scope& scope, const
 
 namespace {
 
-/// Whether `system.F`, `self.F` or `math.pi` is written for F or pi, as in other languages.
+/// Whether F or pi is written as `system.F`, `self.F` or `math.pi`, as in other languages.
 bool is_own_name(const Workspace& work, const Scope& scope, const ast::Qualified& qualified) {
     static constexpr std::array<std::string_view, 5> prefixes = {"self", "this", "np", "numpy",
                                                                  "math"};
@@ -325,7 +326,7 @@ void report_not_species(Workspace& work, SystemId index, std::string_view name, 
         if (quantity.is_species) species.push_back(quantity.name);
     }
     std::string hint = did_you_mean(work, name, species);
-    // The parser has turned the u'' of a rate into u_t.
+    // The name may be u_t, because the parser has turned the u'' of a rate into u_t.
     const std::string_view of = species_of_rate(name);
     if (std::ranges::find(species, of) != species.end()) {
         hint = fmt::format("{0}'' is a second rate; the second derivative along x is dxx({0})", of);

@@ -1,5 +1,5 @@
-// Replaces lengths of the domain by numbers. The grid is known before expressions of systems,
-// stages and pictures are checked.
+// Replaces lengths of the domain by numbers. This is possible because the grid is known before
+// expressions in systems, stages and pictures are checked.
 #include "lang/check/names/domain_lengths.h"
 
 #include "lang/program/scaled_lengths.h"

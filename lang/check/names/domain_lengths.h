@@ -19,14 +19,15 @@ inline constexpr std::string_view domain_word = "domain";
 /// The aggregate in which each cell counts with its length, area or volume.
 inline constexpr std::string_view integral_word = "integral";
 
-/// The second operand of `(grown)` for a length without a direction: the side of a cell.
+/// The second operand of `(grown)` if the length has no direction, like the side of a cell.
 inline constexpr int all_axes = 3;
 
-/// A length: `factor`, multiplied by a built-in value if `builtin` names one.
+/// A length of the domain: the number `factor`, multiplied by the built-in value `builtin` if there
+/// is one.
 struct DomainLength {
-    std::string_view builtin;  ///< Empty if there is none.
+    std::string_view builtin;  ///< The name of the built-in value; empty if there is none.
     double factor = 0;
-    int axis = all_axes;  ///< The axis along which the length grows, if the domain does.
+    int axis = all_axes;  ///< The axis along which the length grows if the domain grows.
 };
 
 /// The length to which the name after `domain.` refers. Reports an error if there is no such
@@ -38,7 +39,7 @@ std::optional<DomainLength> domain_length(Workspace& work, const Scope& scope,
 /// because sums over their cells are already integrals.
 double content_of_cell(const Program& program);
 
-/// The name after `domain.`; null if the expression does not have this form.
+/// The name after `domain.` in an expression; null if the expression does not have this form.
 const ast::Word* name_of_length(const ast::Script& script, const ast::Expr& expr);
 /// Whether the aggregate is integral(e over domain).
 bool is_integral(const ast::Over& over);

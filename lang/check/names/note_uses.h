@@ -1,4 +1,4 @@
-// Records, for editors, the declaration to which each name refers (internal to the checker). The
+// Records for editors to which declaration each name refers (internal to the checker). The
 // functions do nothing if Workspace::uses is null.
 #pragma once
 
@@ -16,8 +16,8 @@ void note_use(Workspace& work, Span use, SystemId system,
 /// Records the declaration of a name in an expression. `node` is the name's node.
 void note_use(Workspace& work, const Scope& scope, const Node& node, Span use);
 
-/// Records each declaration of a system as a use of itself and as a use of the declaration of the
-/// same name in a base.
+/// Records each declaration in a system as a use of itself. If a base declares the same name, also
+/// records it as a use of that declaration.
 void note_declarations(Workspace& work, SystemId system);
 
 }  // namespace cascade::checking

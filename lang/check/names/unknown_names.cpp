@@ -1,5 +1,5 @@
-// Reports unknown names. Hints come from tables of words of other programs or, if these lack the
-// word, from similar names.
+// Reports unknown names. Hints come from tables of words of other programs. If these tables do not
+// contain the word, hints come from similar names.
 #include "lang/check/names/unknown_names.h"
 
 #include "lang/vocabulary/units.h"
@@ -28,7 +28,7 @@ std::vector<std::string> readable_names(const System& system, const Scope& scope
     return names;
 }
 
-/// The hint "write 'u * v'" for uv, if both names are known. May be empty.
+/// The hint "write 'u * v'" for uv if u and v are known names; else empty.
 std::string hint_of_joined(std::string_view name, const std::vector<std::string>& known) {
     for (std::size_t size = 1; size < name.size(); ++size) {
         const std::string_view left = name.substr(0, size), right = name.substr(size);
@@ -39,7 +39,7 @@ std::string hint_of_joined(std::string_view name, const std::vector<std::string>
     return "";
 }
 
-/// The hint "write 'dxx(u)'" for u_xx and for d2u in d2u/dx2, if the name u is known.
+/// The hint "write 'dxx(u)'" for u_xx, or for d2u in d2u/dx2, if u is a known name.
 std::string hint_of_subscript(std::string_view name, const std::vector<std::string>& known) {
     if (name.starts_with("d2") && std::ranges::find(known, name.substr(2)) != known.end()) {
         return fmt::format("d2{0}/dx2 is dxx({0})", name.substr(2));
@@ -47,7 +47,8 @@ std::string hint_of_subscript(std::string_view name, const std::vector<std::stri
     const auto is_known = [&](std::string_view word) {
         return std::ranges::find(known, word) != known.end();
     };
-    for (const std::string_view axis : {"dx", "dy", "dz"}) {  // dudx, and du in du/dx.
+    // Looks for dudx, and for du in du/dx.
+    for (const std::string_view axis : {"dx", "dy", "dz"}) {
         const bool is_whole = name.ends_with(axis) && name.size() > axis.size() + 1;
         const std::string_view of = name.substr(1, name.size() - 1 - (is_whole ? axis.size() : 0));
         const bool is_derivative = name.size() > 1 && name[0] == 'd' && is_known(of);
@@ -72,7 +73,8 @@ std::string hint_of_subscript(std::string_view name, const std::vector<std::stri
     return fmt::format("write 'd{}({})'", axes, of);
 }
 
-/// The hint if the name of a stage is written in place of the name of one of its species.
+/// The hint if the name of a stage is written where a name of one of the stage's species is
+/// expected.
 std::string hint_of_stage(const Workspace& work, std::string_view name) {
     for (const Stage& stage : work.program.stages) {
         if (stage.name != name || stage.system == unknown_system) continue;

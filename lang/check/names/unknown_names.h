@@ -8,17 +8,17 @@
 
 namespace cascade::checking {
 
-/// Whether a built-in value can differ between cells. Only t and step cannot.
+/// Whether a built-in value can differ between cells. All built-in values can, except t and step.
 inline bool varies_by_cell(std::string_view builtin) { return builtin != "t" && builtin != "step"; }
 
 /// The text "'x' is not a parameter of s".
 std::string not_a_parameter(std::string_view name, const System& system);
 
-/// Reports a name in an expression that cannot read the names of a system.
+/// Reports a name in an expression that cannot read names of a system.
 void report_constant(Workspace& work, const Scope& scope, std::string_view name, Span span);
 /// Reports a name that the scope's system does not declare.
 void report_unknown_own(Workspace& work, const Scope& scope, std::string_view name, Span span);
-/// Reports a name that refers to the previous stage although this is the first stage.
+/// Reports a name that refers to the previous stage, although the name is in the first stage.
 void report_first_stage(Workspace& work, const Scope& scope, std::string_view name, Span span);
 /// Reports a name that the previous stage does not have.
 void report_unknown_previous(Workspace& work, const Scope& scope, std::string_view name, Span span);

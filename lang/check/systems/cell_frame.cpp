@@ -36,9 +36,9 @@ Formulas formulas(const Algebra& algebra, const Turn& q) {
 }
 
 /// The smallest rotation from the y axis of space to the unit vector `ey`. If the two are opposite,
-/// half a turn about the x axis.
+/// it is half a turn about the x axis.
 Turn turn_of_y(const TermVector& ey) {
-    // The quaternion (1 + y · ey, y × ey), normalised.
+    // The result is the quaternion (1 + y · ey, y × ey), normalised.
     const Term zero = ey.x.number(0), one = ey.x.number(1);
     const Term w = one + ey.y;
     const TermVector v{ey.z, zero, -ey.x};
@@ -96,14 +96,14 @@ Formulas starting_frame(const Formula& ey, const Formula& ez) {
         normal.type = ValueType::vector;
         return algebra.add(normal);
     });
-    constexpr std::uint32_t of_random_vector = 2;  // A formula index other than those of `ey` and
-                                                   // `ez`, so that the draws are different.
+    // A formula index that `ey` and `ez` do not have, so that other random numbers are drawn.
+    constexpr std::uint32_t of_random_vector = 2;
     const Term z = vector_of(ez, [&] { return NodeId(random_vector(algebra, of_random_vector)); });
 
     const TermVector up = components(unit(y)), wanted = components(z);
     const Turn upright = turn_of_y(up);
-    // The direction to which `upright` rotates the z axis of space, and the direction perpendicular
-    // to both this direction and ey.
+    // `ahead` is the direction to which `upright` rotates the z axis of space. `aside` is
+    // perpendicular to both this direction and ey.
     const auto& [w, v] = upright;
     const Term two = y.number(2);
     const auto twice = [&](Term a, Term b) { return two * (a * b); };

@@ -1,5 +1,5 @@
-// Checks the parts that only blocks of cells have: quantities of every cell, vectors, and rules of
-// division and death.
+// Checks the parts that only blocks of cells have: the quantities that every cell has, vectors, and
+// the rules of division and death.
 #include "lang/calculus/algebra.h"
 #include "lang/check/systems/cell_frame.h"
 #include "lang/check/systems/check_systems.h"
@@ -50,7 +50,7 @@ bool is_same(const Formula& a, const Formula& b) {
 
 }  // namespace
 
-/// Adds the quantities of every cell, before the system's own quantities.
+/// Adds the quantities that every cell has, before the system's own quantities.
 void SystemChecker::add_cell_quantities() {
     CellRules& rules = *system().cells;
     const auto add = [&](const char* name) {
@@ -80,7 +80,7 @@ void SystemChecker::add_cell_quantities() {
     rules.spin = define("turn'");
 }
 
-/// If a statement has a meaning only in cells, handles it and returns true.
+/// If a declaration has a meaning only for cells, handles it and returns true.
 bool SystemChecker::declare_of_cells(const Declaration& declaration) {
     if (declaration.kind() != ast::StatementKind::value) return false;
     const std::string& name = declaration.name;
@@ -122,7 +122,7 @@ bool SystemChecker::declare_of_cells(const Declaration& declaration) {
     return true;
 }
 
-/// Whether the name can be declared. Reports names that every cell has already.
+/// Whether the name can be declared. Reports names that every cell already has.
 bool SystemChecker::can_declare_in_cells(const Declaration& declaration) {
     const std::string_view name = declaration.statement->name.text;
     if (name == "p") {
@@ -143,7 +143,7 @@ bool SystemChecker::can_declare_in_cells(const Declaration& declaration) {
     return false;
 }
 
-/// If the statement gives the rate of the position, the frame or the age, handles it and returns
+/// If the declaration gives the rate of the position, the frame or the age, handles it and returns
 /// true.
 bool SystemChecker::collect_rate_of_cells(const Declaration& declaration) {
     const std::string& name = declaration.name;
@@ -191,7 +191,7 @@ void SystemChecker::check_rates_of_cells() {
     target.rates[rules.age] = number(1, target.span);
 }
 
-/// Checks a rule (divide, die, along, ey or ez) if the block has it.
+/// Checks a rule (divide, die, along, ey or ez) if the block contains the rule.
 void SystemChecker::check_rule(std::string_view name, Formula& rule, Context context,
                                ValueType type, bool may_draw) {
     const auto found = rules_.find(name);
@@ -208,8 +208,8 @@ void SystemChecker::check_rule(std::string_view name, Formula& rule, Context con
                                   "after divide");
 }
 
-/// Checks division, death, and values that restart after a division. To be called last, because
-/// these rules read all other names.
+/// Checks division, death, and values that restart after a division. Must be called last, because
+/// these rules may read all other names.
 void SystemChecker::check_rules_of_cells() {
     const std::size_t errors_before = work_.diagnostics.error_count();
     CellRules& rules = *system().cells;

@@ -1,4 +1,4 @@
-// Checks the number n of coarse(n) when the setting is read, and the sides of the grid when the
+// Checks the number n of coarse(n) when the setting is read. Checks the sides of the grid when the
 // whole script is known.
 #include "lang/check/systems/check_coarse.h"
 
@@ -12,10 +12,11 @@ namespace cascade::checking {
 namespace {
 
 constexpr std::int64_t most_coarse = 64;
-constexpr std::int64_t fewest_cells = 4;  // Along an axis of the coarsest grid.
+// The coarsest grid must have at least this number of cells along each axis.
+constexpr std::int64_t fewest_cells = 4;
 
-/// The reason why a domain has no coarser grid, as a text that follows "a coarser grid, "; null if
-/// the domain can have a coarser grid.
+/// The reason why a domain cannot have a coarser grid, as a text that follows "a coarser grid, ".
+/// Null if the domain can have a coarser grid.
 const char* obstacle_in(const DomainSettings& domain) {
     return domain.model     ? "but a model has no coarser grid"
            : domain.surface ? "but a surface has no coarser grid"
@@ -23,8 +24,8 @@ const char* obstacle_in(const DomainSettings& domain) {
                             : nullptr;
 }
 
-/// Reports a side whose number of cells is not a multiple of `times`, or that would have too few
-/// cells.
+/// Reports a side whose number of cells is not a multiple of `times`. Reports a side that would
+/// have too few cells.
 void check_sides(const Grid& grid, std::int64_t times, Span span, Diagnostics& diagnostics) {
     for (const std::int64_t cells : {grid.width, grid.height, grid.depth}) {
         if (cells == 1 || (cells % times == 0 && cells / times >= fewest_cells)) continue;
@@ -74,7 +75,7 @@ std::optional<Coarse> check_coarse(Workspace& work, const ast::Script& script,
 }
 
 void check_coarse_grids(const Program& program, Diagnostics& diagnostics) {
-    if (program.domain.coarse > 1) return;  // The script's own domain was checked before.
+    if (program.domain.coarse > 1) return;  // The script's own domain has already been checked.
     const char* const obstacle = obstacle_in(program.domain);
     for (const Stage& stage : program.stages) {
         const bool starts_there = stage.time.coarse > 1;
@@ -90,7 +91,7 @@ void check_coarse_grids(const Program& program, Diagnostics& diagnostics) {
 }
 
 void check_sizes(const Program& program, Diagnostics& diagnostics) {
-    if (program.domain.coarse > 1) return;  // The script's own domain was checked before.
+    if (program.domain.coarse > 1) return;  // The script's own domain has already been checked.
     for (std::uint32_t k = 0; k < program.stages.size(); ++k) {
         if (!program.stages[k].size) continue;
         const auto trial = trial_program(program, k);
@@ -98,7 +99,7 @@ void check_sizes(const Program& program, Diagnostics& diagnostics) {
             diagnostics.error(trial.error().span, trial.error().message, trial.error().hint);
             continue;
         }
-        // The size of cells on surfaces follows from their unit, which is known only during the
+        // On a surface, the size of cells follows from the unit, which is known only during the
         // run.
         const DomainSettings& domain = program.domain;
         if (domain.model || domain.surface) continue;

@@ -18,7 +18,7 @@ namespace cascade::checking {
 
 namespace {
 
-/// The names in the expression of a statement, except names of functions that it calls and names of
+/// The names in the expression of a statement, except the names of called functions and of
 /// families.
 std::vector<ast::Word> names_in(const Declaration& declaration) {
     std::vector<ast::Word> names;
@@ -38,8 +38,8 @@ std::vector<ast::Word> names_in(const Declaration& declaration) {
     return names;
 }
 
-/// The names without duplicates. If two or more of them are psi or derivatives of psi, such as
-/// psi_xx and psi_yy, psi takes the place of all these.
+/// The names without duplicates. If several of them are psi or derivatives of psi, such as psi_xx
+/// and psi_yy, psi takes the place of all of them.
 std::vector<ast::Word> without_derivatives(const std::vector<ast::Word>& names) {
     const auto base_of = [](const ast::Word& name) {
         const auto subscripted = subscripted_name(name.text);
@@ -61,8 +61,8 @@ public:
     Inliner(const System& system, DefinitionId unknown, std::uint32_t number)
         : system_(system), unknown_(unknown), number_(number) {}
 
-    /// The formula, with the unknown in place of its definition, and with definitions that read the
-    /// unknown expanded.
+    /// Replaces the definition of the unknown by the unknown itself in a formula, and replaces
+    /// definitions that read the unknown by their formulas.
     Formula run(const Formula& formula) {
         Formula result;
         append(formula, result);
@@ -140,8 +140,8 @@ void SystemChecker::find_unknowns() {
                                        "cells that crawl have no constraints",
                                        "constraints work only for fields: system NAME { … }");
     }
-    // Finds the fields that constraints name, then the fields that constraints read only through
-    // definitions.
+    // The first pass finds the fields that constraints name themselves. The second pass finds the
+    // fields that constraints read only through definitions.
     std::erase_if(constraints, [&](Declaration* each) { return find_unknown(*each, false); });
     for (Declaration* each : constraints) find_unknown(*each, true);
 }
@@ -154,8 +154,8 @@ std::string_view SystemChecker::name_read_by(const ast::Word& word) const {
     return is_derivative ? subscripted->of : word.text;
 }
 
-/// The names without a value in a constraint and, if `in_definitions`, in the definitions that the
-/// constraint reads.
+/// The names in a constraint that have no value. If `in_definitions` is true, also such names in
+/// the definitions that the constraint reads.
 std::vector<ast::Word> SystemChecker::names_without_values(const Declaration& constraint,
                                                            bool in_definitions) const {
     std::vector<ast::Word> unknown;
@@ -189,8 +189,8 @@ std::vector<ast::Word> SystemChecker::names_without_values(const Declaration& co
     return without_derivatives(unknown);
 }
 
-/// Declares the name in a constraint that nothing else declares. A constraint of a derived system
-/// replaces a constraint of its base that determines the same name. Returns false, without a
+/// Declares the one name in a constraint that nothing else declares. A constraint of a derived
+/// system replaces a constraint of its base that determines the same name. Returns false, without a
 /// message, if the constraint itself names no field and `in_definitions` is false.
 bool SystemChecker::find_unknown(Declaration& constraint, bool in_definitions) {
     const std::vector<ast::Word> unknown = names_without_values(constraint, in_definitions);

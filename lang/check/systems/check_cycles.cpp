@@ -23,7 +23,7 @@ void report_cycle(Workspace& work, Span span, const char* what,
                                              describe_cycle(names)));
 }
 
-/// The place where a formula reads a value of this kind.
+/// Where a formula reads a value of this kind.
 Span place_of(const Formula& formula, const NodeKind& kind) {
     for (const Node& node : formula.nodes) {
         if (node.is(kind)) return node.span;
@@ -46,7 +46,7 @@ void report_step_cycle(Workspace& work, const System& system,
     report_cycle(work, place_of(formula, read), "definitions and rates", names);
 }
 
-/// Checks the nesting depth of operators, including nesting through definitions and rates.
+/// Checks how deeply operators are nested, also through definitions and rates.
 void check_depths(Workspace& work, const System& target) {
     IdVector<DefinitionId, std::uint32_t> definitions(target.definitions.size());
     IdVector<ItemId, std::uint32_t> rates(target.quantities.size());

@@ -1,4 +1,4 @@
-// Checks the ranges of quantities, and the texts of a system.
+// Checks the ranges of quantities, and the texts that describe a system.
 #include "lang/check/systems/check_systems.h"
 #include "lang/check/expressions/check_expression.h"
 

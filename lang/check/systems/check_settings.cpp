@@ -1,5 +1,5 @@
-// Checks settings of systems and stages: iterations, interval, frozen, speed, show. check_time.cpp
-// checks settings of time.
+// Checks the settings iterations, interval, frozen, speed and show of systems and stages.
+// check_time.cpp checks the settings of time.
 #include "lang/check/systems/check_systems.h"
 #include "lang/check/systems/check_time.h"
 #include "lang/check/expressions/read_setting.h"
@@ -16,7 +16,7 @@
 namespace cascade::checking {
 namespace {
 
-/// Whether `speed` is set to a word that asks for automatic steps in other programs, and that this
+/// Whether `speed` is set to a word that means automatic steps in other programs and that this
 /// script does not declare.
 bool asks_for_automatic(const Workspace& work, const ast::Script& script,
                         const ast::Statement& speed, const Scope& scope) {
@@ -41,7 +41,7 @@ void report_unknown_species(Workspace& work, Span span, std::string_view name,
                            std::move(hint));
 }
 
-/// The species that growth does not dilute. Reports values that are not species.
+/// The species that growth does not dilute. Reports names that are not species.
 std::vector<ItemId> read_undiluted(Workspace& work, const ast::Script& script,
                                    const ast::Statement& statement, const Scope& scope) {
     std::vector<ItemId> species;

@@ -1,4 +1,4 @@
-// Checks solvers. Semi-implicit solvers need the diffusion that lang/calculus finds, and a domain
+// Checks solvers. A semi-implicit solver needs the diffusion that lang/calculus finds, and a domain
 // in which plane waves exist.
 #include "lang/check/systems/check_solver.h"
 
@@ -17,7 +17,7 @@ namespace cascade::checking {
 
 namespace {
 
-/// Whether a rate depends on the values in its cell.
+/// Whether the rate of a species depends on values in its own cell.
 bool has_reaction(const LocalJacobian& jacobian) {
     return std::ranges::any_of(jacobian.rows, [&](const auto& row) {
         return std::ranges::any_of(row,
@@ -34,7 +34,7 @@ bool has_diffusion(const IdVector<SpeciesId, SpeciesDiffusion>& diffusion) {
 }
 
 /// Finds a species that has a fixed value or slope at a side and whose rate contains lap(lap(…)) of
-/// this species. The inner lap is stored in a plane that is mirrored at sides, so the waves of this
+/// this species. The inner lap is stored in a plane that is mirrored at sides, so the waves in this
 /// plane differ from the waves of the species.
 std::optional<SpeciesId> held_and_nested(const Stage& stage,
                                          const IdVector<SpeciesId, SpeciesDiffusion>& diffusion) {
@@ -86,8 +86,8 @@ struct Refusal {
     std::string message, hint;
 };
 
-/// The reason why a semi-implicit solver cannot compute the steps of a stage in its domain; empty
-/// if it can.
+/// The reason why a semi-implicit solver cannot compute a stage in the stage's domain; nullopt if
+/// it can.
 std::optional<Refusal> refusal_of_domain(const Program& program, const Stage& stage) {
     const DomainSettings& domain = program.domain;
     const std::string_view solver = name_of(stage.time.solver);
@@ -116,8 +116,8 @@ std::optional<Refusal> refusal_of_domain(const Program& program, const Stage& st
     return std::nullopt;
 }
 
-/// The reason why a semi-implicit solver cannot compute the steps of a stage with its system; empty
-/// if it can.
+/// The reason why a semi-implicit solver cannot compute a stage with the stage's system; nullopt if
+/// it can.
 std::optional<Refusal> refusal_of_system(const Program& program, std::uint32_t number) {
     const Stage& stage = program.stages[number];
     const System& system = program.system_of(number);

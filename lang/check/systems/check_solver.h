@@ -1,5 +1,5 @@
-// Checks that a stage can be computed by a solver that treats diffusion or the reaction in each
-// cell implicitly (internal to the checker).
+// Checks whether the solver of a stage can compute the stage, for solvers that treat diffusion, or
+// the reaction in each cell, implicitly (internal to the checker).
 #pragma once
 
 #include "core/diagnostics.h"

@@ -11,7 +11,7 @@ namespace cascade::checking {
 namespace {
 
 constexpr std::int64_t default_iterations = 1000;
-/// A stage with an `until` condition stops after this number of steps if the condition never holds.
+/// If the `until` condition of a stage never holds, the stage stops after this number of steps.
 constexpr std::int64_t most_iterations_until = 1'000'000;
 
 template <typename T>
@@ -19,8 +19,8 @@ T pick(const std::optional<T>& own, const std::optional<T>& other, T otherwise) 
     return own.value_or(other.value_or(std::move(otherwise)));
 }
 
-/// Sets the duration of a stage with automatic steps from its iterations: the time that this number
-/// of steps would take at the given speed.
+/// Sets the duration of a stage with automatic steps to the time that the stage's iterations would
+/// take at the given speed.
 void count_duration_in_steps(Stage& stage) {
     if (stage.time.has_duration() || stage.time.open_end) return;
     stage.time.duration_in_steps = stage.iterations;
@@ -32,8 +32,8 @@ bool has_condition(const Time& time) {
     return time.until || time.steady;
 }
 
-/// Sets the moments at which the stage is observed, by `interval` or `every`. If the stage sets
-/// either, both settings of its system have no effect.
+/// Sets when the stage is observed, by `interval` or `every`. If the stage sets either of these,
+/// both settings of its system have no effect.
 void fill_moments(Stage& stage, const Settings& own, const Settings& defaults) {
     const Settings& given = own.interval || own.time.every ? own : defaults;
     stage.time.every = given.time.every.value_or(0);
@@ -48,8 +48,8 @@ void fill_end(Stage& stage, const Settings& own, const Settings& defaults) {
     const bool own_end = own.iterations || own.time.duration;
     const auto& iterations = own_end ? own.iterations : defaults.iterations;
     stage.time.duration = own_end ? own.time.duration : defaults.time.duration;
-    // A condition in the stage replaces iterations given in the system. Iterations in the stage
-    // itself remain, and the condition may end the stage earlier.
+    // A condition in the stage replaces the iterations of its system. If the stage itself sets
+    // iterations, these remain, and the condition may end the stage earlier.
     stage.time.open_end =
         has_condition(stage.time) && !own_end && (has_condition(own.time) || !defaults.iterations);
     stage.iterations = stage.time.duration   ? most_iterations
@@ -66,8 +66,8 @@ const Node* find_reader(const Formula& formula, ItemId item) {
     return found == formula.nodes.end() ? nullptr : &*found;
 }
 
-/// The first node that reads `speed`; null if there is none. If there is such a node, `speed` must
-/// be a number known in advance.
+/// The first node that reads `speed`; null if no node does. If a node reads `speed`, the value of
+/// `speed` must be a number that is known in advance.
 const Node* reader_of_speed(const Program& program, const Stage& stage) {
     const System& system = program.systems[stage.system];
     std::vector<const Formula*> formulas;
@@ -82,7 +82,7 @@ const Node* reader_of_speed(const Program& program, const Stage& stage) {
     return nullptr;
 }
 
-/// The first node in a formula that varies by cell. Operands come before the nodes that read them.
+/// The first node in a formula that varies by cell.
 const Node* varying_part(const Program& program, std::uint32_t stage, const Formula& formula) {
     IdVector<NodeId, const Node*> cause(formula.nodes.size(), nullptr);
     for (const NodeId part : cause.ids()) {

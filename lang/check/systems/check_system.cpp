@@ -36,8 +36,7 @@ void SystemChecker::run() {
     if (is_cells()) check_rules_of_cells();
 }
 
-/// Reports a system without rates. In papers `u_t = …` is a rate, but in Cascade it is a
-/// definition.
+/// Reports a system without rates. In papers, `u_t = …` is a rate. In Cascade it is a definition.
 void SystemChecker::report_no_rates() {
     const auto is_paper_rate = [&](const Declaration* each) {
         return each && !species_of_rate(each->name).empty();
@@ -86,7 +85,7 @@ bool SystemChecker::can_declare(const Declaration& declaration) {
 }
 
 /// Whether the declaration gives a string to a quantity. If so, reports the declaration, and
-/// suggests a text of the system with a similar name.
+/// suggests a text of the system (such as `title`) that has a similar name.
 bool SystemChecker::is_misspelt_text(const Declaration& declaration) {
     const ast::ExprId value = declaration.value().root;
     if (!std::holds_alternative<ast::Text>(declaration.script->expressions[value].node))
@@ -151,8 +150,8 @@ void SystemChecker::report_families() {
     }
 }
 
-/// Reports a name that is a definition but has a rate, as if `u = 1` was written in place of `u:
-/// 1`. In a derived system the later of the two statements is reported.
+/// Reports a name that is a definition and has a rate, as if the author wrote `u = 1` for `u: 1`.
+/// In a derived system, the later of the two statements is reported.
 void SystemChecker::report_rate_of_definition(const Declaration& rate) {
     const auto definition =
         std::find_if(definitions_.begin(), definitions_.end(),
@@ -168,7 +167,7 @@ void SystemChecker::report_rate_of_definition(const Declaration& rate) {
                             fmt::format("'{}' is a definition and has no rate", rate.name));
 }
 
-/// Reports the rate of a name that is not a species. Later uses of the name are not reported.
+/// Reports a rate of a name that is not a species. Later uses of this name are not reported.
 void SystemChecker::report_no_species(const Declaration& declaration, const Meaning* meaning) {
     const std::string& name = declaration.name;
     if (meaning != nullptr && meaning->is_definition()) {
@@ -182,8 +181,8 @@ void SystemChecker::report_no_species(const Declaration& declaration, const Mean
     if (auto explained = explain_family(work_, system(), name)) {
         work_.diagnostics.error(declaration.span(), std::move(explained->message),
                                 std::move(explained->hint));
-    } else if (!is_incomplete(work_, index_)) {  // If the system is incomplete, the missing part
-                                                 // may declare the name.
+    } else if (!is_incomplete(work_, index_)) {
+        // In an incomplete system, a missing part may declare the name.
         std::string hint;
         if (!is_hopeless(work_)) hint = did_you_mean(work_, name, quantity_names(system()));
         if (hint.empty()) hint = fmt::format("add {}: …", name);
@@ -232,8 +231,9 @@ SystemId check_system(Workspace& work, const DerivedSystem& derived, std::option
     if (!is_new && !block.name.empty()) {
         const bool is_known = found->second != unknown_system;
         if (is_known && work.program.systems[found->second].built_in) {
-            found->second = number;  // A system of the script takes precedence over a library
-                                     // system of the same name.
+            // If a system of the script has the same name as a library system, the system of the
+            // script takes precedence.
+            found->second = number;
         } else {
             report_twice(work, block.name.span,
                          is_known ? work.program.systems[found->second].span : block.name.span,

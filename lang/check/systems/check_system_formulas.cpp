@@ -37,7 +37,7 @@ void SystemChecker::report_type(const Declaration& declaration, const CheckedExp
                                 : std::string(words.hint));
 }
 
-/// The value of a declaration, a number or a vector. Reports errors.
+/// Checks the value of a declaration, which is a number or a vector. Reports errors.
 std::optional<CheckedExpression> SystemChecker::check_value(const Declaration& declaration,
                                                             Context context, ValueType type) {
     if (!has_one_value(work_, declaration)) return std::nullopt;
@@ -59,8 +59,8 @@ void SystemChecker::check_values() {
         auto checked = check_value(*values_[id], Context::value);
         if (checked) quantity.start = std::move(checked->formula);
         if (values_[id]->range == nullptr) continue;
-        // Cells have a radius even if the system gives it no rate. The range of the radius is the
-        // range written with its starting value.
+        // Cells have a radius even if the system gives it no rate, so the radius may have a range.
+        // The range is written after the starting value of the radius.
         const bool is_radius = is_cells() && id == system().cells->radius;
         if (quantity.is_species && !is_radius) {
             work_.diagnostics.error(values_[id]->range->span, "only a parameter can have a range",
@@ -137,7 +137,8 @@ void SystemChecker::check_invariants() {
 
 void SystemChecker::check_settings() {
     Settings settings;
-    // A setting for the end of the stage, or a condition, replaces the end that a base sets.
+    // The level of the last system that sets how stages end: by iterations, a duration or a
+    // condition. Ends that its bases set have no effect.
     std::uint32_t level_of_end = 0;
     for (const Declaration* declaration : settings_) {
         if (is_end_setting(declaration->name) || declaration->name == "until") {

@@ -11,8 +11,8 @@
 namespace cascade::checking {
 
 /// Checks a system or a block of cells. `base` is the system from which it is derived, and `joined`
-/// are further bases. Adds the system even if it has errors, so that expressions that read its
-/// names cause no further messages. If the base of the system is unknown, adds nothing and returns
+/// are further bases. A system with errors is added, too, so that expressions that read its names
+/// cause no further messages. If the base of the system is unknown, adds nothing and returns
 /// unknown_system.
 SystemId check_system(Workspace& work, const DerivedSystem& derived, std::optional<SystemId> base,
                       std::vector<SystemId> joined);
@@ -21,8 +21,8 @@ SystemId check_system(Workspace& work, const DerivedSystem& derived, std::option
 /// returns true.
 bool take_text(System& system, const Declaration& declaration);
 
-/// Sets the range of a quantity, if its declaration has one. `value` is the default of the
-/// quantity, if known.
+/// Sets the range of a quantity if its declaration has a range. `value` is the default of the
+/// quantity, if the default is known.
 void check_range(Workspace& work, const Declaration& declaration, Quantity& quantity,
                  std::optional<double> value);
 
@@ -30,11 +30,11 @@ void check_range(Workspace& work, const Declaration& declaration, Quantity& quan
 void warn_outside(Workspace& work, const Quantity& quantity, std::optional<double> value,
                   Span span);
 
-/// Warns of parameters and definitions that nothing reads. In a derived system, such a statement is
-/// an error unless it replaces a statement of the base.
+/// Warns of parameters and definitions that nothing reads. If a derived system declares an unread
+/// name that its base does not declare, this is an error.
 void warn_unread(Workspace& work);
 
-// Settings that systems and stages share.
+// Settings that both systems and stages have.
 
 /// Applies a setting: iterations, interval, frozen, speed, show, or a setting of time.
 void check_setting(Workspace& work, const ast::Script& script, const ast::Statement& statement,

@@ -1,4 +1,5 @@
-// Checks each setting of time by itself. check_stage_time.cpp checks whether they are compatible.
+// Checks each setting of time separately. check_stage_time.cpp checks whether the settings are
+// compatible.
 #include "lang/check/systems/check_time.h"
 #include "lang/check/systems/check_systems.h"
 #include "lang/check/systems/check_coarse.h"
@@ -18,20 +19,20 @@ const ast::Expr& root_of(const ast::Script& script, ast::Expression expression) 
     return script.expressions[expression.root];
 }
 
-/// The name, if the expression consists of a single name; else "".
+/// The name of which the expression consists; "" if the expression is not a single name.
 std::string_view word_of(const ast::Script& script, ast::Expression expression) {
     const auto* name = std::get_if<ast::Name>(&root_of(script, expression).node);
     return name == nullptr ? std::string_view() : name->name;
 }
 
-/// The call, if the expression is a call of `name`; else null.
+/// The call of `name` of which the expression consists; else null.
 const ast::Call* call_of(const ast::Script& script, ast::Expression expression,
                          std::string_view name) {
     const auto* call = std::get_if<ast::Call>(&root_of(script, expression).node);
     return call != nullptr && call->function.text == name ? call : nullptr;
 }
 
-/// The argument of a call with one argument. Its nodes come before the call.
+/// The argument of a call with one argument. The nodes of the argument come before the call.
 ast::Expression argument_of(const ast::Script& script, ast::Expression expression,
                             const ast::Call& call) {
     return {expression.first, script.arguments[call.first_argument]};
@@ -81,7 +82,7 @@ void check_until(Workspace& work, const ast::Script& script, ast::Expression val
         time.steady = largest;
         return;
     }
-    // Like a picture, a condition reads the present values of the stage that it ends.
+    // A condition reads the present values of the stage that it ends, as a picture does.
     Scope present = scope;
     present.context = Context::picture;
     present.last_stage = scope.stage.value_or(0);

@@ -16,21 +16,21 @@ inline constexpr std::int64_t most_iterations = 1'000'000'000;
 /// Whether the statement is `speed: auto`.
 bool is_automatic(const ast::Script& script, const ast::Statement& speed);
 
-/// Whether the setting is `iterations` or `duration`. Only one of them applies to a stage, so an
-/// override of either replaces both.
+/// Whether the setting is `iterations` or `duration`. A stage has only one of these, so an override
+/// of either replaces both.
 bool is_end_setting(std::string_view name);
 
 /// Applies a setting of time. The statement must have one value.
 void check_time_setting(Workspace& work, const ast::Script& script, const ast::Statement& statement,
                         const Scope& scope, Settings& settings);
 
-/// Fills in the settings of time of a stage: from its own settings, else from its system's, else
-/// from the defaults of the language.
+/// Fills in the settings of time of a stage from its own settings, then from the settings of its
+/// system, and then from the defaults of the language.
 void fill_time(Stage& stage, const Settings& own, const Settings& defaults);
 
-/// Gives the stage the solver of `asked` (`--solver`). The duration stays the same. If the stage
-/// has none, its duration becomes iterations · speed. Stabilised and semi-implicit solvers choose
-/// their steps as with `speed: auto`.
+/// Gives the stage the solver of the option --solver (`asked`). The duration stays the same. If the
+/// stage has no duration, it becomes iterations · speed. Stabilised and semi-implicit solvers
+/// choose their steps as with `speed: auto`.
 void change_solver(Stage& stage, const TimeSettings& asked);
 
 /// Reports errors that involve several settings of a stage: settings that exclude each other, and a

@@ -1,4 +1,4 @@
-// Finds values that are never read, which usually are misspelt names.
+// Finds values that nothing reads. The names of such values are usually misspelt.
 #include "lang/check/systems/check_systems.h"
 #include "lang/vocabulary/settings.h"
 
@@ -19,8 +19,8 @@ struct Unread {
 
 std::string family_of(const std::string& name) { return name.substr(0, name.find('[')); }
 
-/// Finds quantities and definitions that are never read. A family gets one message, and only if
-/// none of its members is read.
+/// Finds quantities and definitions that nothing reads. A family gives only one message, and only
+/// if none of its members is read.
 std::vector<Unread> find_unread(const Workspace& work, SystemId index) {
     const System& system = work.program.systems[index];
     std::unordered_set<std::string> read;
@@ -46,7 +46,7 @@ std::vector<Unread> find_unread(const Workspace& work, SystemId index) {
     return unread;
 }
 
-/// Reports a name that a derived system adds and that nothing reads: it was probably intended to
+/// Reports a name that a derived system adds and that nothing reads. The author probably wanted to
 /// change a value of the base. Names of the base are not reported again.
 void report_change_of_nothing(Workspace& work, const System& system, const Unread& unread) {
     const System& base = work.program.systems[*system.base];
@@ -84,7 +84,8 @@ void warn_unread(Workspace& work) {
                 report_change_of_nothing(work, system, unread);
             } else {
                 const bool is_parameter = unread.kind == std::string_view("parameter");
-                // A system may contain defaults for the settings of its stages.
+                // The context includes settings of stages, because a system may contain defaults
+                // for them.
                 const auto context = WordContext::stage;
                 const auto settings =
                     system.cells ? settings_of({SettingBlock::cells, SettingBlock::stage,

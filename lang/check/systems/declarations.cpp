@@ -24,7 +24,7 @@ constexpr std::int64_t most_members = 1000;
 constexpr std::size_t most_indices = 64;
 constexpr std::size_t most_declarations = 100'000;
 
-/// One end of the range of an index. Reports errors.
+/// The number at one end of the range of an index. Reports errors.
 std::optional<std::int64_t> check_end(Workspace& work, const SystemStatement& from,
                                       ast::Expression expression) {
     const auto value = check_constant(work, *from.script, expression, "the end of an index");
@@ -69,8 +69,8 @@ SystemId id_of(const Workspace& work, const System& system) {
     return SystemId(static_cast<std::size_t>(&system - work.program.systems.data()));
 }
 
-/// Collects the indices. If several have the same name, takes the index of the system that is
-/// derived last.
+/// Collects the indices. If several indices have the same name, takes the index from the system
+/// that is derived last.
 void collect_indices(Workspace& work, System& system, std::span<const SystemStatement> statements) {
     std::unordered_map<std::string_view, const SystemStatement*> latest;
     for (const SystemStatement& each : statements) {
@@ -103,7 +103,7 @@ void collect_indices(Workspace& work, System& system, std::span<const SystemStat
     }
 }
 
-/// The number 2 in u[2]. Reports an error if the word is not a number.
+/// The number of a member: 2 in u[2]. Reports an error if the word is not a number.
 std::optional<std::int64_t> member_number(Workspace& work, const ast::Word& word) {
     std::int64_t value = 0;
     const auto end = word.text.data() + word.text.size();
@@ -132,8 +132,8 @@ void report_unknown_index(Workspace& work, const System& system, const ast::Word
                            std::move(hint));
 }
 
-/// The indices of a statement. A number counts as an index with a single value and without a name.
-/// Empty after an error.
+/// The indices of a statement. A number counts as an index that has no name and a single value.
+/// Empty if there is an error.
 std::vector<Index> indices_of(Workspace& work, const System& system, const ast::Word& of) {
     std::vector<Index> indices;
     for (const ast::Word& word : words_of_index(of)) {
@@ -161,7 +161,7 @@ std::vector<Index> indices_of(Workspace& work, const System& system, const ast::
     return indices;
 }
 
-/// Reports a list that does not have one value for each member.
+/// Reports a list that does not contain exactly one value for each member.
 void check_list(Workspace& work, const ast::Script& script, const ast::Statement& statement,
                 std::int64_t members) {
     const auto values = static_cast<std::int64_t>(statement.values.size());
@@ -220,7 +220,7 @@ std::vector<Declaration> expand_statement(Workspace& work, const System& system,
         }
         if (is_list) declaration.listed = std::min(declarations.size(), count - 1);
         declarations.push_back(declaration);
-        // The last index changes first.
+        // The last index changes fastest.
         for (std::size_t k = values.size(); k-- > 0 && ++values[k] > indices[k].high;) {
             values[k] = indices[k].low;
         }
@@ -228,7 +228,7 @@ std::vector<Declaration> expand_statement(Workspace& work, const System& system,
     return declarations;
 }
 
-/// A list of declarations in order, without the declarations that others replace.
+/// A list of declarations, in order. Does not contain declarations that other declarations replace.
 class StatementList {
 public:
     void add(Declaration declaration) {
@@ -261,8 +261,8 @@ private:
         all_.push_back(std::move(declaration));
         dropped_.push_back(false);
     }
-    /// Whether `later` is about a single member, and `earlier` about all members or about several.
-    /// Both statements belong to the same system.
+    /// Whether `later` is about fewer members of a family than `earlier`. Both declarations belong
+    /// to the same system.
     static bool is_finer(const Declaration& later, const Declaration& earlier) {
         return later.indices.size() < earlier.indices.size();
     }

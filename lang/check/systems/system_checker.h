@@ -89,17 +89,17 @@ private:
     SystemId index_;
     std::vector<Declaration> declarations_;
     std::unordered_map<std::string, Span> declared_;
-    // The declaration of each item. Null for items and definitions that every cell has without a
-    // declaration.
+    // The declaration of each item and of each definition. Null for those that every cell has
+    // without a declaration.
     IdVector<ItemId, const Declaration*> values_;
     IdVector<DefinitionId, const Declaration*> definitions_;
     std::vector<const Declaration*> invariants_, settings_;
     std::vector<const Declaration*> rate_statements_;
     IdVector<ItemId, RateStatements> rates_;
-    // For cells.
+    // For blocks of cells.
     RateStatements velocity_, spin_;
-    std::map<std::string, const Declaration*, std::less<>> rules_;  ///< The declarations of divide,
-                                                                    ///< die, …, by name.
+    /// The declarations of divide, die, …, by name.
+    std::map<std::string, const Declaration*, std::less<>> rules_;
     std::vector<const Declaration*> restarts_;
 };
 

@@ -1,5 +1,5 @@
-// Orders systems topologically by their bases, and reports cycles. Puts the statements of a base
-// before the statements of the derived system.
+// Orders systems topologically by their bases, and reports cycles. In each system, puts the
+// statements of its bases before its own statements.
 #include "lang/check/systems/system_inheritance.h"
 
 #include "lang/check/systems/check_systems.h"
@@ -29,8 +29,8 @@ namespace {
 
 // Blocks of cells with several bases, `cells a: b, c { … }` (internal to the checker).
 
-/// Whether `later` replaces `earlier`. Both have the same subject, and `later` belongs to a derived
-/// system.
+/// Whether `later` replaces `earlier`. Both statements have the same subject, and `later` belongs
+/// to a system derived from the system of `earlier`.
 bool replaces(const ast::Statement& later, const ast::Statement& earlier) {
     if (later.kind == ast::StatementKind::rate_term || later.kind == ast::StatementKind::constraint)
         return false;
@@ -42,7 +42,7 @@ std::string_view text_of(const ast::Statement& statement) {
     return {statement.name.text.data(), statement.span.end - statement.name.span.begin};
 }
 
-/// The statements that no later statement replaces, with their level set to 0.
+/// The statements that no later statement replaces. Their level is set to 0.
 std::vector<SystemStatement> effective(const std::vector<SystemStatement>& statements) {
     std::unordered_map<std::string, std::vector<const SystemStatement*>> later;
     std::vector<SystemStatement> kept;
@@ -60,12 +60,12 @@ std::vector<SystemStatement> effective(const std::vector<SystemStatement>& state
 
 /// Adds the statements of a further base to the statements of earlier bases. All terms of rates
 /// remain, in order. If two bases give different values to the same name, reports an error, unless
-/// the derived `block` gives a value itself. A statement that both bases inherit from a common base
-/// appears once. Afterwards all statements are of level 0, and none replaces another.
+/// the derived `block` gives this name a value. A statement that several bases inherit from a
+/// common base is added once. Afterwards all statements have level 0, and none replaces another.
 void join_statements(Workspace& work, std::vector<SystemStatement>& statements,
                      const std::vector<SystemStatement>& more, const ast::Block& block) {
     statements = effective(statements);
-    std::unordered_set<std::string> said;  // The subjects of the block's own statements.
+    std::unordered_set<std::string> said;  // The subjects of the derived block's own statements.
     for (const ast::Statement& own : block.statements) {
         if (own.kind != ast::StatementKind::rate_term)
             said.insert(subject_of(own) + " " + std::string(own.index.text));
@@ -88,7 +88,7 @@ void join_statements(Workspace& work, std::vector<SystemStatement>& statements,
         }
         const std::string subject = subject_of(statement) + " " + std::string(statement.index.text);
         const auto other = by_subject.find(subject);
-        // Texts for readers, such as the title, are taken from the first base.
+        // Texts for readers, such as the title, come from the first base.
         const bool is_for_readers = is_setting_of(SettingBlock::system, statement.name.text);
         if (other == by_subject.end()) {
             statements.push_back(each);
@@ -131,8 +131,8 @@ private:
     Workspace& work_;
     const std::vector<SystemBlock>& blocks_;
     std::unordered_map<std::string_view, std::uint32_t> own_, library_;
-    std::vector<std::vector<std::uint32_t>> bases_;  ///< For each block, its bases in the order in
-                                                     ///< which they are written.
+    /// For each block, its bases in the order of the script.
+    std::vector<std::vector<std::uint32_t>> bases_;
     std::vector<bool> is_known_;
     std::vector<std::size_t> places_;  ///< For each block, its index in the result.
     std::size_t copied_ = 0;
@@ -193,7 +193,7 @@ void Derivation::report_cycle(const std::vector<std::uint32_t>& cycle) {
                                               describe_cycle(names)));
 }
 
-/// Adds the statements of a base.
+/// Adds the statements of a base to a system.
 void Derivation::take_base(DerivedSystem& system, std::size_t place,
                            const std::vector<DerivedSystem>& before) {
     const DerivedSystem& base = before[place];

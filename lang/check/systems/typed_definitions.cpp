@@ -1,6 +1,6 @@
 // Searches the text of a definition for the names that it reads, before the definition can be
 // checked. If the definition reads a member of a family, the whole family is checked first, because
-// the text does not show which member is read.
+// the text does not show which member the definition reads.
 #include "lang/check/expressions/read_setting.h"
 #include "lang/check/systems/typed_definitions.h"
 
@@ -23,8 +23,8 @@ bool is_constraint(const Declaration* declaration) {
     return declaration != nullptr && declaration->kind() == ast::StatementKind::constraint;
 }
 
-/// The nodes of the dependencies: definitions by their ids, followed by one node for each family. A
-/// family depends on all its members.
+/// The dependencies between definitions, as a list of nodes. Each definition is a node with the
+/// number of its id. Each family is a further node, which depends on all members of the family.
 class DefinitionReads {
 public:
     DefinitionReads(const Declarations& definitions, const NameTable& names)
@@ -59,8 +59,8 @@ private:
         }
     }
 
-    /// If a definition reads its own family, it reads an earlier member in the order of writing. So
-    /// no dependency on the whole family is added.
+    /// Adds what a definition reads. If a definition reads its own family, it reads a member that
+    /// is declared earlier, so no dependency on the whole family is added.
     void add(DefinitionId reader, std::string_view name) {
         const auto family = families_.find(name);
         if (family != families_.end() && family_of(reader) != name) {
@@ -69,7 +69,7 @@ private:
         const Meaning* meaning = find(names_, name);
         if (meaning == nullptr || !meaning->is_definition()) return;
         const DefinitionId id = std::get<DefinitionId>(meaning->id);
-        // The unknown of a constraint is always a number. So its type does not depend on the
+        // The unknown of a constraint is always a number, so its type does not depend on the
         // definitions that the constraint reads.
         if (is_constraint(definitions_[id])) return;
         reads_[reader.index()].push_back(id.index());

@@ -90,19 +90,19 @@ TEST(Amplitudes, KnowWhereTheyDoNotApply) {
         }
         return true;
     };
-    // The diffusion depends on the state.
+    // Amplitude equations do not apply if the diffusion depends on the state.
     EXPECT_TRUE(
         none("system s { u: 1; r: -0.1\nu' = r*(u-1) - (u - 1 + 2*lap(u^2)/2 + "
              "lap(lap(u))) - (u-1)^3 }\ndomain { grid: 64, 64; spacing: 0.2 }\n"
              "stage a: s { }\n",
              "r", -0.5, 0.5));
-    // A conserved total responds to a pattern without limit.
+    // Nor do they apply if a conserved total responds to a pattern without limit.
     EXPECT_TRUE(
         none("system s { u: 0; w: 1; r: -0.1\nu' = r*u - (u + 2*lap(u) + lap(lap(u))) + "
              "u*(w - 1) - u^3\nw' = lap(w) }\n"
              "domain { grid: 64, 64; spacing: 0.2 }\nstage a: s { }\n",
              "r", -0.5, 0.5));
-    // Waves that travel.
+    // Nor do they apply to waves that travel.
     EXPECT_TRUE(
         none("system s { u: 0; r: -0.1\nu' = r*u - (u + 2*dxx(u) + dxx(dxx(u))) - dx(u) - "
              "u^3 }\ndomain { grid: 64; spacing: 0.2 }\nstage a: s { }\n",

@@ -9,7 +9,8 @@ namespace {
 
 using analysis::Complex;
 
-/// The rate of a wave for a system of one species `u` with this rate.
+/// The growth rate of a wave in a system with one species `u`, where `rate` is the right side of u'
+/// = ….
 Complex rate_of(const std::string& rate, double x, double y, const std::string& stencil = "cross") {
     const auto analysed = analyse("system s { u: 0.5; u' = " + rate +
                                   " }\ndomain { grid: 64, 64; spacing: 0.5; stencil: " + stencil +
@@ -127,7 +128,7 @@ TEST(OperatorsOfWaves, OfFluxesAcrossAxesAreThoseOfTheTensor) {
 TEST(OperatorsOfWaves, FixTheLongestStableSteps) {
     const auto analysed = analyse(
         "system s { u: 0; u' = 2 * lap(u) }\ndomain { grid: 64, 64 }\nstage a: s { iterations: 1 }");
-    // The shortest wave fades at 8 · 2.
+    // The shortest wave fades at the rate 8 · 2.
     for (const auto& step : analysed.first().steps) {
         EXPECT_NEAR(step.step * 16, stability_interval(step.solver), 2e-3) << name_of(step.solver);
     }
@@ -140,7 +141,7 @@ TEST(OperatorsOfWaves, OscillationsWithoutDecayAreStableWithNoStepOfEuler) {
         if (step.solver == Solver::euler || step.solver == Solver::rk2) {
             EXPECT_EQ(step.step, 0);
         }
-        // The method is stable on the imaginary axis up to 2 √2, and ω = 3.
+        // The method is stable on the imaginary axis up to 2 √2, and the wave has ω = 3.
         if (step.solver == Solver::rk4) {
             EXPECT_NEAR(step.step, 2 * std::sqrt(2.0) / 3, 1e-3);
         }

@@ -53,7 +53,7 @@ TEST(Outlook, SaysThatAStageEndsTooEarly) {
 
 TEST(Outlook, SaysNothingWhereAPatternMayGrow) {
     EXPECT_EQ(outlook_of("stage s: brusselator { " + noise + " }"), "");
-    // A spot starts a pattern, and strong noise or a side might.
+    // A spot starts a pattern. Strong noise or a side may start one, too.
     EXPECT_EQ(outlook_of("stage s: gray_scott { }"), "");
     EXPECT_EQ(outlook_of("stage s: brusselator { decay: 6; u: [feed] + random(0, 2) }"), "");
     EXPECT_EQ(outlook_of("domain { grid: 64, 64; boundary: noflux }\n"

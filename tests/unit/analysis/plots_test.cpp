@@ -27,7 +27,8 @@ TEST(Plots, OfADispersionRelationNameTheFastestWave) {
     EXPECT_NE(svg->find("brusselator, stage 's': Turing"), std::string::npos);
     EXPECT_NE(svg->find(">9.573 cells</text>"), std::string::npos);
     EXPECT_NE(svg->find("real part"), std::string::npos);
-    EXPECT_EQ(svg->find("imaginary part"), std::string::npos);  // These are standing waves.
+    // Standing waves have no imaginary part.
+    EXPECT_EQ(svg->find("imaginary part"), std::string::npos);
     const Image image = as_image(drawing, 2);
     EXPECT_EQ(image.width, 1280);
     EXPECT_GT(pixels_like(image, {0.13F, 0.36F, 0.64F}), 1000U);   // The curve.

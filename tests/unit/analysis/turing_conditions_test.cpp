@@ -9,7 +9,7 @@ namespace {
 
 using analysis::Stability;
 
-/// The length in cells of the wave along an axis whose Laplacian on the grid has the factor
+/// The wavelength in cells along an axis on which the grid's Laplacian multiplies the wave by
 /// −square.
 double cells_of(double square) { return std::numbers::pi / std::asin(std::sqrt(square) / 2); }
 
@@ -90,7 +90,7 @@ TEST(TuringConditions, SwiftHohenbergGrowsByItsParameter) {
     EXPECT_EQ(relation.stability, Stability::turing);
     EXPECT_NEAR(relation.fastest.rate.real(), 0.1, 1e-9);
     EXPECT_NEAR(relation.fastest.cells(), cells_of(0.7 * 0.7), 1e-3);
-    // r − kc⁴ at rest.
+    // The rate at rest is r − kc⁴.
     EXPECT_NEAR(relation.at_rest.real(), 0.1 - std::pow(0.7, 4), 1e-12);
     // The band ends where (kc² − q)² = r.
     ASSERT_EQ(relation.bands.size(), 1U);

@@ -44,7 +44,7 @@ TEST_F(HistoryFiles, EachLineIsThereAtOnce) {
         EXPECT_EQ(loaded(),
                   Lines(typed.begin(), typed.begin() + static_cast<std::ptrdiff_t>(k) + 1));
     }
-    HistoryFile other(path_);  // A prompt at the same time.
+    HistoryFile other(path_);  // Another prompt that runs at the same time.
     other.add("from elsewhere");
     file.add("and here");
     typed.insert(typed.end(), {"from elsewhere", "and here"});

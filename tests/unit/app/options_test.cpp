@@ -1,4 +1,4 @@
-// The command line: how arguments are parsed, and messages about wrong ones.
+// The command line: how arguments are parsed, and messages about wrong arguments.
 #include "app/options.h"
 
 #include "app/exit_status.h"

@@ -10,7 +10,7 @@
 namespace cascade {
 namespace {
 
-/// A process with a child that is waited for by nobody, and that lives until it is killed.
+/// A process with one child. It lives until it is killed and never waits for the child.
 class ParentProcess {
 public:
     ParentProcess() {

@@ -1,4 +1,4 @@
-// The names that completion offers depend on the words before.
+// The names that completion offers depend on the words before the cursor.
 #include "app/prompt_names.h"
 
 #include "run/script/script.h"

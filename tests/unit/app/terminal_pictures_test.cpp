@@ -31,15 +31,15 @@ TEST(TerminalPictures, AnswersAreUnderstood) {
 TEST(TerminalPictures, AreAsHighInLinesAsInPixels) {
     Stream out;
     out.is_terminal = out.colour = true;
-    out.descriptor = -1;  // No window: 80 columns and 24 lines.
+    out.descriptor = -1;  // Without a window, there are 80 columns and 24 lines.
     TerminalPictures pictures;
     pictures.protocol = PictureProtocol::sixel;
-    // Enlarged to the size of the picture in characters.
+    // Small pictures are enlarged to the size that they have as characters.
     const std::string small = pictures.draw(Image(16, 8), out);
     EXPECT_THAT(small, HasSubstr("\"1;1;160;80#"));
     EXPECT_THAT(small, HasSubstr("\n\n\n\n\x1b[4A\x1b"
                                  "7"));
-    // Averaged down to the window.
+    // Large pictures are averaged down to the window.
     EXPECT_THAT(pictures.draw(Image(500, 2000), out), HasSubstr("\"1;1;105;420#"));
     pictures.protocol = PictureProtocol::kitty;
     EXPECT_THAT(pictures.draw(Image(16, 8), out, 5), HasSubstr(",i=5,"));

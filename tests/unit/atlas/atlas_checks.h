@@ -43,8 +43,8 @@ inline std::vector<std::uint32_t> charts_of(const SurfaceMesh& mesh) {
     return connected_components(cut);
 }
 
-/// The distance of the two nearest charts in texels: the smallest number of steps, also diagonal
-/// ones, from a texel of one chart to a texel of the other; at most `most`.
+/// The distance of the two nearest charts in texels, but at most `most`. It is the smallest number
+/// of steps, also diagonal ones, from a texel of one chart to a texel of the other.
 inline int least_gap(const SurfaceMesh& mesh, std::int64_t side, int most) {
     const std::vector<std::uint32_t> charts = charts_of(mesh);
     const TextureLayout layout(mesh, side, side);

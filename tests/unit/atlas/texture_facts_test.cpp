@@ -12,7 +12,7 @@
 namespace cascade {
 namespace {
 
-/// The unit square of two triangles, with texture coordinates by a function of x and y.
+/// The unit square of two triangles. A function of x and y gives the texture coordinates.
 SurfaceMesh square(const std::function<TexturePlace(float x, float y)>& place) {
     SurfaceMesh mesh =
         mesh_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}});

@@ -9,8 +9,8 @@
 
 namespace cascade::test {
 
-/// A part of the unit cylinder around the z axis, `turn` of it (1 for all, which is closed), with
-/// `columns` and `rows` of rectangles.
+/// A piece of the unit cylinder around the z axis, made of `columns` × `rows` rectangles. It goes
+/// around by the fraction `turn` of a full turn, and is closed for 1.
 inline SurfaceMesh tube(double turn, double height, std::uint32_t columns, std::uint32_t rows) {
     const std::uint32_t around = turn < 1 ? columns + 1 : columns;
     std::vector<Vector3d> points;

@@ -88,7 +88,8 @@ TEST_P(Shapes, KeepTheirPadding) {
     SurfaceMesh mesh = *GetParam().make();
     for (const std::int64_t texels : {128, 1024}) {
         mesh.texture = *test::unwrapped(mesh, texels);
-        // Two empty texels between two others are three steps.
+        // If there are two empty texels between two charts, the distance of the charts is three
+        // steps.
         EXPECT_GE(test::least_gap(mesh, texels, 6), 3) << texels;
     }
 }
@@ -127,7 +128,7 @@ TEST(Unwrap, KnowsNoUnits) {
     test::expect_sound(far_away);
 }
 
-/// Triangles without area, needles, and points of any number of triangles.
+/// Triangles without area, needles, and points at which any number of triangles meet.
 TEST(Unwrap, TakesDegenerateTriangles) {
     SurfaceMesh mesh = *sphere_mesh(1, 0.2);
     for (std::size_t p = 0; p < mesh.points.size(); p += 3) {
@@ -137,7 +138,7 @@ TEST(Unwrap, TakesDegenerateTriangles) {
     EXPECT_EQ(TextureLayout(mesh, 64, 64).skipped().without_place, 0u);
 
     mesh = *box_mesh({1, 1, 1}, 0.2);
-    for (Vector3d& p : mesh.points) p.z *= 1e-9;  // Flat, with two sides.
+    for (Vector3d& p : mesh.points) p.z *= 1e-9;  // A flat body with two sides.
     mesh.texture = *test::unwrapped(mesh);
     test::expect_sound(mesh);
 

@@ -127,7 +127,7 @@ TEST(Branches, OfSymmetricStatesEndAtBranchPointsNotFolds) {
 
 TEST(Branches, OfPatternsEndWhereThePatternVanishes) {
     // The waves of Swift and Hohenberg's equation meet u = 0 at p = (1 + lap)², on rings and
-    // between sides. The uniform states then are followed in both directions.
+    // between sides. From there, the uniform states are followed in both directions.
     const double meeting = std::pow(1 + laplacian(1, 2 * std::numbers::pi / 16), 2);
     for (const std::string sides : {"periodic", "noflux"}) {
         SteadyScript script(
@@ -169,7 +169,7 @@ TEST(Branches, BeginToOscillateAtHopfPoints) {
     EXPECT_NEAR(hopf[0].place.parameter, 1 + 1.3 * 1.3, 1e-7);
     EXPECT_NEAR(std::abs(hopf[0].leading[0].imag()), 1.3, 1e-6);
     EXPECT_EQ(hopf[0].crossing, 2);
-    // Waves follow, each where its trace b − 1 − a² + 2 lap is 0.
+    // Waves begin to oscillate later, each where its trace b − 1 − a² + 2 lap is 0.
     EXPECT_NEAR(hopf[1].place.parameter, 1 + 1.3 * 1.3 - 2 * laplacian(std::numbers::pi / 45, 0.5),
                 1e-7);
 }

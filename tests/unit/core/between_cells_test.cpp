@@ -75,7 +75,8 @@ TEST(BetweenCells, CurvesOfTwoValuesStayBetweenThem) {
     }
 }
 
-// A curve leaves the range of the two cells beside it by less than the largest step around them.
+// A curve leaves the range of the two cells beside it by at most 0.3 times the largest difference
+// of neighbouring cells around it.
 TEST(BetweenCells, CurvesStayNearTheirCells) {
     std::mt19937 random(7);
     std::uniform_real_distribution<float> number(-1, 1);

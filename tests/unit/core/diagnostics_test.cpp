@@ -61,7 +61,7 @@ TEST(Diagnostics, TabsAndWideLettersKeepTheMarkerInPlace) {
               "      |                 ^\n");
     EXPECT_EQ(draw("\xe6\xbc\xa2"
                    "ab",
-                   3, 5),  // A letter of two columns.
+                   3, 5),  // This letter is two columns wide.
               "leopard.cascade:1:2: error: wrong\n"
               "    1 | \xe6\xbc\xa2"
               "ab\n"
@@ -73,7 +73,8 @@ TEST(Diagnostics, NothingStrangeReachesTheTerminal) {
     EXPECT_THAT(drawn,
                 HasSubstr("    1 | a\xef\xbf\xbd[31m\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd\n"));
     EXPECT_THAT(drawn, Not(HasSubstr("\x1b")));
-    EXPECT_THAT(drawn, Not(HasSubstr("\xe2\x80\xae")));  // It changes the writing direction.
+    // This character changes the writing direction.
+    EXPECT_THAT(drawn, Not(HasSubstr("\xe2\x80\xae")));
 }
 
 TEST(Diagnostics, LongLinesAreCutAroundTheSpan) {

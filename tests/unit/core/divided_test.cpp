@@ -53,7 +53,7 @@ TEST(Divided, WavesKeepTheirPlaces) {
     }
 }
 
-/// The mean error of a wave along an axis of `cells` cells; the other axes have few cells.
+/// The mean error of a wave along an axis of `cells` cells. The other axes have few cells.
 double mean_error(std::int64_t cells, int axis) {
     Grid grid{.width = 3, .height = 3, .depth = 3};
     (axis == 0 ? grid.width : axis == 1 ? grid.height : grid.depth) = cells;
@@ -100,7 +100,7 @@ TEST(Divided, SidesThatAreNotPeriodicGoOn) {
     EXPECT_EQ(found.at(0, 0), plane.at(0, 0));
     EXPECT_EQ(found.at(31, 0), plane.at(7, 0));
     grid.boundary.x = Boundary::periodic;
-    EXPECT_GT(divided(plane, grid, 4).at(0, 0), 2);  // Half way to the last cell.
+    EXPECT_GT(divided(plane, grid, 4).at(0, 0), 2);  // Half way to the value of the last cell.
 }
 
 /// Steep random fields of few cells and of single spikes, on a line, in the plane and in a volume.

@@ -1,4 +1,4 @@
-// The environment of arithmetic: its effect, and that the previous one is restored.
+// The environment of arithmetic: its effect, and that the previous environment is restored.
 #include "core/floating_point.h"
 
 #include <gtest/gtest.h>

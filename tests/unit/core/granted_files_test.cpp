@@ -34,7 +34,7 @@ protected:
         const auto bytes = GrantedFiles(root_ / "own", access).read(name, 100);
         return bytes ? *bytes : bytes.error().message;
     }
-    /// Expects the refusal of a file outside, which must not depend on whether the file exists.
+    /// Expects that a file outside of the folders is refused, whether or not the file exists.
     void expect_outside(const std::string& name) const {
         EXPECT_EQ(outcome(name), "'" + name + "' lies outside of the script's folder");
     }

@@ -1,4 +1,4 @@
-// Tables of links without weights equal those with weights to the bit, also in reused memory.
+// Tables of links without weights equal tables with weights to the bit, also in reused memory.
 #include "core/links.h"
 
 #include "core/grid.h"
@@ -32,7 +32,7 @@ void expect_same(const Links& a, const Links& b, const PlaneLayout& layout) {
 }
 
 TEST(Links, WithoutWeightsAreThoseWithThem) {
-    Links placed;  // Used for lists of different sizes.
+    Links placed;  // This memory is used again for lists of different sizes.
     for (const std::size_t cells : {1u, 15u, 16u, 103u, 40000u, 640u, 700u}) {
         for (const std::int64_t width : {1, 24, 40, 512}) {
             SCOPED_TRACE(::testing::Message() << cells << " cells in rows of " << width);

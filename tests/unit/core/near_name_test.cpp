@@ -15,7 +15,7 @@ TEST(NearName, FindsOneEdit) {
     EXPECT_EQ(nearest_name("betta", parameters), "beta");  // One letter too many.
     EXPECT_EQ(nearest_name("bea", parameters), "beta");    // One letter too few.
     EXPECT_EQ(nearest_name("beto", parameters), "beta");   // A wrong letter.
-    EXPECT_EQ(nearest_name("btea", parameters), "beta");   // Two swapped count as one edit.
+    EXPECT_EQ(nearest_name("btea", parameters), "beta");   // Two swapped letters are one edit.
     EXPECT_EQ(nearest_name("BETA", parameters), "beta");   // Case does not count.
 }
 
@@ -28,12 +28,12 @@ TEST(NearName, AllowsAThirdOfTheLength) {
 TEST(NearName, TakesTheNearest) {
     const std::vector<std::string> names = {"diff_ab", "diff_a", "diff_b"};
     EXPECT_EQ(nearest_name("dif_a", names), "diff_a");
-    EXPECT_EQ(nearest_name("diff_c", names), "diff_a");  // The first of equally near ones.
+    EXPECT_EQ(nearest_name("diff_c", names), "diff_a");  // The first of equally near names.
 }
 
 TEST(NearName, IsSilentWhereNothingIsNear) {
     EXPECT_EQ(nearest_name("temperature", parameters), "");
-    EXPECT_EQ(nearest_name("q", parameters), "");  // Another letter is no misspelling.
+    EXPECT_EQ(nearest_name("q", parameters), "");  // A different single letter is no misspelling.
     EXPECT_EQ(nearest_name("k", parameters), "ka");
     EXPECT_EQ(nearest_name("", parameters), "");
     EXPECT_EQ(nearest_name("beta", {}), "");

@@ -88,8 +88,8 @@ TEST(Palette, PerceptualMapsRiseEvenlyInLightness) {
 }
 
 TEST(Palette, KnownColoursOfThePerceptualMaps) {
-    // The colours 0, 128 and 255 of the published tables of 256, in 8 bits. 0.5 lies between the
-    // colours 127 and 128.
+    // The colours 0, 128 and 255 of the published tables of 256 colours, in 8 bits. 0.5 lies
+    // between the colours 127 and 128.
     const auto expect = [](const char* name, double position, int red, int green, int blue) {
         const Colour colour = colour_at(*find_palette(name), position);
         EXPECT_NEAR(static_cast<double>(colour[0]) * 255, red, 1.5) << name << " " << position;

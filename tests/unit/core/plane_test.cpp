@@ -35,14 +35,14 @@ Field numbered(const Grid& grid) {
     return field;
 }
 
-/// The cell whose value is at index i of an axis of n cells, also beyond its ends.
+/// The cell whose value the boundary puts at index i of an axis of n cells, where −1 ≤ i ≤ n.
 std::int64_t beyond(Boundary boundary, std::int64_t i, std::int64_t n) {
     if (boundary == Boundary::periodic) return (i + n) % n;
     return i < 0 ? 0 : (i == n ? n - 1 : i);
 }
 
-/// Expects that the halo with its edges and corners is filled by the boundary, and nothing else is
-/// written. `has_rows`: the rows above and below are also filled.
+/// Expects that the halo with its edges and corners is filled by the boundary, and that nothing
+/// else is written. With `has_rows`, the rows above and below the cells are filled, too.
 void expect_filled(const Field& field, const Grid& grid, bool has_rows = true) {
     const std::int64_t pad = PlaneLayout::row_pad;
     const std::int64_t halo = grid.depth > 1 ? 1 : 0;

@@ -77,7 +77,7 @@ TEST(Resample, PeriodicSidesAreNeighboursAndMeansAreKept) {
     Plane<float> coarse{PlaneLayout(half)};
     for (std::int64_t i = 0; i < 4; ++i) coarse.at(i, 0) = static_cast<float>(i * i);
     const Plane<float> found = refined(coarse, half, fine, half.boundary);
-    EXPECT_FLOAT_EQ(found.at(0, 0), 9.0f / 4);  // 0 and, beyond the side, 9.
+    EXPECT_FLOAT_EQ(found.at(0, 0), 9.0f / 4);  // Between 0 and, beyond the side, 9.
     EXPECT_FLOAT_EQ(found.at(7, 1), 9 - 9.0f / 4);
     double sum = 0;
     for (std::int64_t i = 0; i < 8; ++i) sum += found.at(i, 0);

@@ -105,7 +105,7 @@ TEST(Utf8, DecodesEverySizeAndRefusesWhatRfc3629Refuses) {
 
 TEST(Utf8, Utf16UnitsAreTheColumnsOfEditors) {
     EXPECT_EQ(count_utf16_units("aβ"), 2U);
-    EXPECT_EQ(count_utf16_units("\xf0\x9f\x90\x86 x"), 4U);  // A leopard is two.
+    EXPECT_EQ(count_utf16_units("\xf0\x9f\x90\x86 x"), 4U);  // A leopard is two units.
     EXPECT_EQ(count_utf16_units("\xff"), 1U);
 }
 

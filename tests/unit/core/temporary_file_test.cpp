@@ -117,7 +117,8 @@ TEST_F(TemporaryFiles, AFileThatIsWrittenIsLocked) {
 }
 
 TEST_F(TemporaryFiles, ManyProcessesOfOneNumberDoNotMeet) {
-    // As with two containers, only the system's random numbers make these names different.
+    // As for processes in two containers, only the system's random numbers make these names
+    // different.
     std::vector<std::thread> threads;
     for (int t = 0; t < 4; ++t) {
         threads.emplace_back([this, t] {

@@ -33,7 +33,7 @@ FoundDevice found() {
     return all && !all->empty() ? all->front() : FoundDevice{};
 }
 
-/// Runs the script on a device. `told` gets what the executor notes.
+/// Runs the script on a device. `told` gets the notes of the executor.
 Outcome run_on(const OpenclApi& api, const FoundDevice& device, bool may_differ = false,
                std::string* told = nullptr) {
     SimulationOptions options{"interp", 0, 1};

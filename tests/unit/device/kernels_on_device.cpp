@@ -11,7 +11,7 @@
 namespace cascade::test {
 namespace {
 
-/// The bytes of one entry of a table of links, or nothing if the table is missing.
+/// A buffer on the device with room for `count` values, and with these values if they are given.
 template <typename T>
 DeviceBuffer buffer_of(OpenDevice& device, const T* values, std::size_t count) {
     DeviceBuffer made = device.buffer(count * sizeof(T));

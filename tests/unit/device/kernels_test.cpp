@@ -56,7 +56,7 @@ void compare(const std::vector<CellKernel>& kernels, const Place& place, std::ui
     }
 }
 
-/// At least `count` random kernels of `operations` operations at each place.
+/// Compares at least `count` random kernels of `operations` operations at each place.
 void compare_random_kernels(std::uint64_t first_seed, std::uint64_t count, int operations) {
     OperationCounts on_grids, on_links;
     std::uint64_t seed = first_seed;
@@ -70,7 +70,8 @@ void compare_random_kernels(std::uint64_t first_seed, std::uint64_t count, int o
             options.links = place.grid.linked;
             options.link_planes = false;  // All planes of a kernel here have one size.
             options.operations = operations;
-            options.results = 1 + operations / 5;  // So that few operations are left out.
+            // With more results, fewer operations are removed as unused.
+            options.results = 1 + operations / 5;
             options.composed_percent = seed % 4 == 0 ? 4 : 0;
             kernels.push_back(random_kernel(seed, options));
             (place.grid.linked ? on_links : on_grids).add(kernels.back());
@@ -85,7 +86,7 @@ void compare_random_kernels(std::uint64_t first_seed, std::uint64_t count, int o
 
 TEST(PrintedKernels, HaveTheInterpretersBits) { compare_random_kernels(1, 1, 250); }
 
-/// Kernels from new seeds. CASCADE_DEVICE_KERNELS is their least number at each place.
+/// Kernels from new seeds. CASCADE_DEVICE_KERNELS is the smallest number of kernels at each place.
 TEST(PrintedKernels, FromNewSeeds) {
     const char* const wanted = std::getenv("CASCADE_DEVICE_KERNELS");
     if (wanted == nullptr) GTEST_SKIP() << "tests/heavy/device_kernels_test.sh runs it";

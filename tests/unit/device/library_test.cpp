@@ -1,4 +1,4 @@
-// Systems of the library and random scripts give the bits of threads on a device.
+// Systems of the library and random scripts give the same bits on a device as on threads.
 #include "device/devices.h"
 #include "lang/library/library.h"
 #include "tests/agreement/random_scripts.h"
@@ -14,11 +14,12 @@
 namespace cascade::test {
 namespace {
 
-/// Whether everything is compared, by tests/heavy/device_kernels_test.sh. Otherwise a sample is,
-/// because drivers compile each script anew.
+/// Whether all scripts are compared, as tests/heavy/device_kernels_test.sh does. Otherwise only a
+/// sample is compared, because drivers compile each script anew.
 bool compares_all() { return std::getenv("CASCADE_DEVICE_KERNELS") != nullptr; }
 
-/// Compares a script, and returns whether the device took the steps of all its stages.
+/// Expects the same results of a script on the device and on threads. Returns whether the device
+/// took the steps of all stages.
 bool compare_with_threads(const std::string& name, const std::string& text,
                           const Overrides& overrides) {
     static const auto device = open_device("cpu");

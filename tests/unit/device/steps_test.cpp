@@ -1,5 +1,5 @@
-// Steps on a device give the bits of steps on threads: solvers, sides, halos, aggregates, noise,
-// masks and models.
+// Steps on a device give the same bits as steps on threads: solvers, sides, halos, aggregates,
+// noise, masks and models.
 #include "device/devices.h"
 #include "tests/agreement/script_outcome.h"
 
@@ -18,7 +18,8 @@ std::shared_ptr<Device> device() {
     return opened ? *opened : nullptr;
 }
 
-/// Runs a script on threads and on the device. `told` is what the device says against it.
+/// Runs a script on threads and on the device, and compares the bits. The device must refuse the
+/// script with these words, or without words take its steps.
 void compare(const std::string& script, const std::string& expected_words = "") {
     const Outcome here = run_script("device", script, {}, {"interp", 0, 1});
     std::string told;

@@ -30,7 +30,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-/// A value in each cell, by its position.
+/// A value in each cell, computed from the position of the cell.
 template <typename Function>
 std::vector<float> values_of(const SurfaceMesh& mesh, const SurfaceCells& cells,
                              const Function& function) {
@@ -139,7 +139,7 @@ TEST(Bake, TexelsOfASquareAreWhatThePlacesSay) {
     const SurfaceCells cells = test::cells_of(mesh, 500);
     const std::vector<float> values = values_of(mesh, cells, [](Vector3d) { return 0; });
     PaintedCells look = painted(values);
-    // A colour for each quarter of each texel; the mean must be of linear light.
+    // Each quarter of each texel has its own colour. The mean must be computed in linear light.
     look.colour = [&](std::span<const float>, const SurfacePlace& place) -> Colour {
         const Vector3d p = position_of(mesh, place);
         const bool is_left = p.x * 16 - std::floor(p.x * 16) < 0.5;
@@ -252,7 +252,7 @@ TEST(Bake, TheMeanColourIsThatOfTheCells) {
     }
     EXPECT_NEAR(sum / weights, cells / areas, 0.002);
     EXPECT_NEAR(result.covered, 1 - 1.0 / 24,
-                0.002);  // Beside each triangle at a pole it is empty.
+                0.002);  // Half of each column is empty beside the triangles at the poles.
 }
 
 TEST(Bake, TheSameOnAnyNumberOfThreads) {
@@ -376,7 +376,7 @@ TEST(Bake, RefusesWhatCannotBePainted) {
         for (TexturePlace& place : corners) place = {place[0] * 0.01F, place[1] * 0.01F};
     }
     EXPECT_THAT(message(), HasSubstr("have no area in the texture"));
-    EXPECT_TRUE(check_bakeable(mesh));  // Larger maps have samples there.
+    EXPECT_TRUE(check_bakeable(mesh));  // Larger maps have samples inside the triangles.
     mesh.texture = texture;
     for (auto& corners : mesh.texture) {
         for (TexturePlace& place : corners) place = {place[0] * 9, place[1] * 9};
@@ -440,12 +440,12 @@ TEST(Bake, FilesAreAModelAndItsMaps) {
     EXPECT_THAT(map_paths(model, {.heights = true, .normals = true}),
                 ElementsAre(model, folder / "a.b_color.png", folder / "a.b_height.png",
                             folder / "a.b_normal.png"));
-    // Maps of heights and normals have no sRGB chunk, and the text with the range of heights.
+    // Only the map of colours has an sRGB chunk. All maps have the range of heights as text.
     for (const char* name : {"a.b_color.png", "a.b_height.png", "a.b_normal.png"}) {
         const std::string bytes = read_file(folder / name, 1u << 30).value();
         const bool is_colour = std::string_view(name) == "a.b_color.png";
         EXPECT_EQ(bytes.find("sRGB") != std::string::npos, is_colour) << name;
-        EXPECT_EQ(int{bytes[24]}, is_colour ? 8 : 16) << name;  // Bits, in the header.
+        EXPECT_EQ(int{bytes[24]}, is_colour ? 8 : 16) << name;  // The bit depth.
         EXPECT_EQ(parse_png_texts(bytes)->at("Cascade heights"),
                   fmt::format("{:.9g} {:.9g}", result.heights.low, result.heights.high));
     }

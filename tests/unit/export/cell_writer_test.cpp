@@ -149,7 +149,7 @@ TEST(PlacedCells, AreReadWithTheirFrames) {
     if (!PythonFolder::has_numpy()) GTEST_SKIP() << "there is no NumPy";
     const double half = std::sqrt(0.5);
     const std::vector<Vector3d> places = {{1.0 / 3, 2, 3}, {4, 5, 6}};
-    const std::vector<Quaternion> frames = {{}, {half, half, 0, 0}};  // A quarter around x.
+    const std::vector<Quaternion> frames = {{}, {half, half, 0, 0}};  // A quarter turn about x.
     const std::vector<double> radii = {0.5, 0.25};
     const std::vector<Colour> colours(2, Colour{1, 0.5F, 0});
     const Channel channels[] = {{"ripe", {3, 4}}, {"frame", {5, 6}}, {"points", {7, 8}}};
@@ -251,7 +251,8 @@ TEST(PointValues, AreThoseOfTheCellsAround) {
     ASSERT_EQ(values[0].values.size(), square.mesh.points.size());
     for (std::size_t p = 0; p < square.mesh.points.size(); ++p) {
         const double x = square.mesh.points[p].x;
-        const double tolerance = x > 0.3 && x < 0.7 ? 0.1 : 0.25;  // Cells are inside of sides.
+        // Points at the sides are outside of the outermost cells' centres.
+        const double tolerance = x > 0.3 && x < 0.7 ? 0.1 : 0.25;
         EXPECT_NEAR(values[0].values[p], x, tolerance);
     }
     EXPECT_EQ(values_at(places, filter, square.channels, two)[0].values, values[0].values);

@@ -18,7 +18,7 @@ inline SurfaceMesh mesh_of(PolygonSoup soup) {
     return std::move(made->mesh);
 }
 
-/// The square 0..1² at z = 0, cut into n × n squares; texture coordinates are x and y.
+/// The square 0 … 1² at z = 0, cut into n × n squares. Texture coordinates are x and y.
 inline SurfaceMesh flat_square(std::uint32_t n) {
     PolygonSoup soup;
     const auto along = [&](std::uint32_t k) { return static_cast<double>(k) / n; };
@@ -73,7 +73,7 @@ inline Channel x_channel(const SurfaceMesh& mesh) {
     return channel;
 }
 
-/// Red grows with x, green with y, blue with z, over −1 … 1.
+/// Colours whose red grows with x, green with y and blue with z, each over −1 … 1.
 inline std::vector<Colour> place_colours(const SurfaceMesh& mesh) {
     std::vector<Colour> colours;
     for (const Vector3d& p : mesh.points) {

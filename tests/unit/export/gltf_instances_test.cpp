@@ -129,7 +129,7 @@ TEST(GltfInstances, WhatIsWrittenComesBackAsItWentOut) {
     EXPECT_EQ(seen.triangles, 160u);
     EXPECT_EQ(seen.triangles, wanted.triangles);
     EXPECT_NEAR(seen.area, wanted.area, 1e-3 * wanted.area);
-    // Both have the same colours, in different orders.
+    // Both files have the same colours, in different orders.
     for (std::size_t c = 0; c < 3; ++c) {
         std::vector<float> lights = some->attributes.at(c).values,
                            others = all->attributes.at(c).values;

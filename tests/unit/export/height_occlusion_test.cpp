@@ -1,4 +1,4 @@
-// How much light of the sky arrives between heights.
+// How much light of the sky reaches each cell of a height field.
 #include "export/height_occlusion.h"
 
 #include <gtest/gtest.h>
@@ -47,10 +47,10 @@ TEST(HeightOcclusion, AWallHidesWhatIsBelowItsEdge) {
                 cosine > 1e-9 ? wall * cosine / (static_cast<double>(away) * cells.side) : 0;
             expected += 1 / (1 + rise * rise) / 16;
         }
-        // The error from cells is larger near the wall.
+        // Near the wall, the size of the cells causes a larger error.
         EXPECT_NEAR(parts[static_cast<std::size_t>(32 * 64 + 40 - away)], expected, 0.03) << away;
     }
-    EXPECT_EQ(parts[32 * 64 + 50], 1);  // On top of it.
+    EXPECT_EQ(parts[32 * 64 + 50], 1);  // On top of the wall.
 }
 
 TEST(HeightOcclusion, APitIsDarkerTheDeeperItIs) {
@@ -63,7 +63,7 @@ TEST(HeightOcclusion, APitIsDarkerTheDeeperItIs) {
         });
         const float middle = seen(cells, heights)[16 * 33 + 16];
         EXPECT_LT(middle, last);
-        const double rise = depth / 4.5;  // About; its wall is a cell wide.
+        const double rise = depth / 4.5;  // Approximate, since the wall is a cell wide.
         EXPECT_NEAR(middle, 1 / (1 + rise * rise), 0.12) << depth;
         last = middle;
     }
@@ -85,7 +85,7 @@ TEST(HeightOcclusion, SidesThatRepeatAreSeenAcross) {
                         here[static_cast<std::size_t>((j + 3) % 16 * 24 + (i + 7) % 24)], 1e-6);
         }
     }
-    EXPECT_LT(here[23], 0.9F);  // The tower is in the next column, across the side.
+    EXPECT_LT(here[23], 0.9F);  // The plane repeats: column 0 is next to column 23.
     cells.repeats = {false, false};
     EXPECT_EQ(seen(cells, heights_of(cells, [](std::int64_t i,
                                                std::int64_t) { return i == 0 ? 4.0 : 0.0; }))[23],

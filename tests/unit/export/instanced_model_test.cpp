@@ -126,7 +126,7 @@ TEST(InstancedModel, AFewColoursAreExactInTheMaterials) {
     }
     const Decoded file(*encode_instanced_glb({nullptr, {}, copies}));
     EXPECT_EQ(file.json["materials"].size(), 3u);
-    // Two meshes with each colour; vertices are stored once for each mesh.
+    // Each colour has two meshes. Vertices are stored once for each mesh, not for each colour.
     EXPECT_EQ(file.json["nodes"].size(), 6u);
     std::set<int> positions;
     for (const auto& mesh : file.json["meshes"]) {
@@ -170,7 +170,7 @@ TEST(InstancedModel, MergedCopiesAreReadBack) {
     const Result<PolygonSoup> obj = read_obj(text);
     ASSERT_TRUE(obj) << obj.error().message;
     EXPECT_EQ(obj->polygon_count(), triangles);
-    // The last triangle of both is that of the last copy.
+    // In both files, the last triangle belongs to the last copy.
     const Placement& last = copies.placements.back();
     const TriangleMesh& mesh = copies.meshes[last.mesh];
     const PlacementMap map(last);

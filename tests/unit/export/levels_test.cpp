@@ -76,7 +76,7 @@ TEST(Levels, HaveAQuarterOfTheTrianglesAndTheSameLight) {
                                   [&](std::uint32_t p) { return all[k].channels[0].values[p]; }),
                         0, 0.02);
         }
-        // Wide bands stay black and white; narrow ones become grey.
+        // Wide bands stay black and white. Narrow bands become grey.
         const auto grey = static_cast<double>(
             std::count_if(all[3].colours.begin(), all[3].colours.end(),
                           [](const Colour& c) { return c[0] > 0.2F && c[0] < 0.9F; }));

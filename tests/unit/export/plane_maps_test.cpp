@@ -93,7 +93,8 @@ TEST(PlaneMaps, APeriodicPlaneHasNoSeam) {
     }
 }
 
-/// The largest difference of neighbouring columns inside, and that of the first and last columns.
+/// The largest difference between neighbouring columns inside, and the largest difference between
+/// the first and the last column.
 std::array<double, 2> largest_jumps(const Image& image) {
     std::array<double, 2> jumps{};
     for (std::int64_t x = 0; x < image.width; ++x) {
@@ -158,7 +159,7 @@ TEST(PlaneMaps, EmissionIsMixedAsLight) {
 
 TEST(PlaneMaps, NormalsAreThoseOfTheHeights) {
     const FlatCells cells{32, 32, 0.5};
-    const double wave = 2 * std::numbers::pi / 16;  // Its length is half the side, 16.
+    const double wave = 2 * std::numbers::pi / 16;  // The wavelength is half the side, 16 cells.
     const auto heights = values_of(cells, [&](std::int64_t i, std::int64_t) {
         return std::sin(wave * (static_cast<double>(i) + 0.5) * cells.side * 2);
     });

@@ -55,7 +55,7 @@ TEST(Refine, HalvesWhatIsTooLongAndNothingElse) {
 
 TEST(Refine, TrianglesThatAreShortAreLeft) {
     SurfaceMesh mesh = test::flat_square(4);
-    for (Vector3d& p : mesh.points) p.x = p.x * p.x * 10;  // From 0.6 to 4.4 wide.
+    for (Vector3d& p : mesh.points) p.x = p.x * p.x * 10;  // The columns are from 0.6 to 4.4 wide.
     const RefinedMesh fine = refined(mesh, 1, 1000000);
     expect_refined(mesh, fine);
     EXPECT_LE(longest_edge(fine.mesh), 1);

@@ -32,11 +32,12 @@ double seen_at(const Image& map, double u, double v) {
 }
 
 struct SeamErrors {
-    double seam_length = 0;  ///< The length of all seams, in lengths of the model.
+    double seam_length = 0;  ///< The length of all seams, in the unit of the model.
     double jump = 0;         ///< The largest difference between both sides of a seam.
-    double mean_jump = 0;    ///< The mean difference.
-    double error = 0;        ///< The largest difference from the colour of the cells there.
-    double step = 0;         ///< The largest slope of the pattern, per texel.
+    double mean_jump = 0;    ///< The mean difference between both sides.
+    /// The largest difference between the map and the colour of the cells.
+    double error = 0;
+    double step = 0;  ///< The largest slope of the pattern, per texel.
 };
 
 SeamErrors seam_errors(SurfaceMesh mesh, std::int64_t texels) {
@@ -107,8 +108,8 @@ SeamErrors seam_errors(SurfaceMesh mesh, std::int64_t texels) {
     return errors;
 }
 
-/// Bounds for differences at seams: the centres of the texels on both sides are up to ½ texel away,
-/// in a map that is stretched by up to a half.
+/// Checks that the differences at seams are within bounds: the centres of the texels on both sides
+/// are up to ½ texel away, in a map that is stretched by up to a half.
 SeamErrors expect_no_seam(const SurfaceMesh& mesh, std::int64_t texels) {
     const SeamErrors errors = seam_errors(mesh, texels);
     EXPECT_GT(errors.seam_length, 1) << "there are seams to look at";

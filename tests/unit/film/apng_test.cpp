@@ -16,7 +16,7 @@ struct Animation {
     std::uint32_t stated = 0;         ///< Number of frames that the file states.
 };
 
-/// Decodes as the specification says; checks the order of chunks.
+/// Decodes a file as the specification says, and checks the order of chunks.
 Animation decoded(const std::string& file) {
     Animation film;
     std::uint32_t width = 0, height = 0, next = 0;

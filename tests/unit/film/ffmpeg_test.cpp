@@ -33,14 +33,15 @@ protected:
         std::signal(SIGPIPE, SIG_IGN);
     }
 
-    /// Makes a program of that name in the folder bin.
+    /// Makes a program `ffmpeg` in the folder bin.
     void make_program(const std::string& text) const {
         std::filesystem::create_directories(path("bin"));
         ASSERT_TRUE(write_file(path("bin/ffmpeg"), "#!/bin/sh\n" + text));
         std::filesystem::permissions(path("bin/ffmpeg"), std::filesystem::perms::owner_all);
     }
 
-    /// All pixels of a film, decoded by ffmpeg's own decoder or another one.
+    /// All pixels of a film, decoded by ffmpeg. `decoder` holds the options that choose a decoder.
+    /// If it is empty, ffmpeg chooses one.
     std::string decoded(const std::string& name, const std::string& format = "rgb24",
                         const std::string& decoder = "") const {
         const std::string command = "ffmpeg -v error " + decoder + " -i '" + path(name).string() +

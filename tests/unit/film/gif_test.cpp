@@ -10,7 +10,7 @@ namespace cascade {
 namespace {
 
 struct ShownGif {
-    std::vector<std::string> frames;  ///< Pixels in RGBA; transparent ones are white.
+    std::vector<std::string> frames;  ///< Pixels in RGBA. Transparent pixels are white.
     std::vector<int> times;           ///< In hundredths of a second.
     std::vector<FramePart> parts;
     bool repeats = false;
@@ -81,7 +81,7 @@ TEST_F(Gif, HoldsEveryPixelOfFewColours) {
 }
 
 TEST_F(Gif, GivesAFrameItsOwnFewColours) {
-    // No sample has the colours of the second frame.
+    // The film chooses its colours from samples without the second frame.
     const std::vector<FilmFrame> frames = {many_colours(0),
                                            film_frame(Image(96, 96, {1, 0, 0.3F}))};
     auto film = begin_film(path("own.gif"), {}, {frames.data(), 1});
@@ -108,7 +108,8 @@ TEST_F(Gif, KeepsColoursStillWhereNothingChanges) {
                 std::max(furthest, std::abs(level(film.frames[k][b]) - level(frames[k].pixels[b])));
         }
     }
-    // 256 colours for a cube: steps of 255 / 6.3, and corners of boxes are further away.
+    // 256 colours divide the cube into boxes of 255 / 6.3 ≈ 40 levels, whose corners are further
+    // away.
     EXPECT_LT(furthest, 60);
 }
 

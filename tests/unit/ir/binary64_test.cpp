@@ -179,7 +179,7 @@ TEST(Binary64, FunctionsAtTheirEnds) {
     }
 }
 
-/// Two arguments.
+/// Pairs of arguments.
 struct Pairs {
     std::vector<double> x, y;
 };

@@ -22,7 +22,7 @@ struct Function {
     const char* name;
     ValueId (KernelBuilder::*expand)(ValueId);
     double (*exact)(double);
-    double largest_error;  ///< In ulp: as stated in ir/elementary.cpp.
+    double largest_error;  ///< In ulp, as stated in ir/elementary.cpp.
     float largest_argument;
 };
 

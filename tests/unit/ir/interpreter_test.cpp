@@ -81,7 +81,7 @@ private:
             return oracle(instruction.op, words[a], words[b], words[c]);
         }
 
-        /// The offset of a neighbour in elements. Along an axis of one cell it is the cell itself.
+        /// The offset of a neighbour in elements. Along an axis of one cell, the offset is 0.
         std::int64_t step(const PlaneLayout& layout, int dx, int dy, int dz) const {
             return (stencil_.x ? dx : 0) + (stencil_.y ? dy * layout.stride : 0) +
                    (stencil_.z ? dz * layout.slice_stride : 0);
@@ -345,7 +345,7 @@ TEST(Interpreter, ResultsOfEveryKind) {
     }
 }
 
-// x ← x / 2 + 1 converges to 2; a million times, with two registers.
+// x ← x / 2 + 1, repeated a million times with two registers, converges to 2.
 TEST(Interpreter, AMillionOperations) {
     KernelBuilder builder;
     ValueId x = builder.field(builder.field_slot("x"));

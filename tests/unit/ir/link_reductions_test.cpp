@@ -40,7 +40,7 @@ public:
 
     const LinkList& list() const { return list_; }
 
-    /// The results of a kernel for the values of its one field.
+    /// The results of a kernel with one field, which has these values.
     std::vector<std::vector<float>> run(const CellKernel& kernel,
                                         const std::vector<float>& field) const {
         EXPECT_EQ(verify(kernel), "");
@@ -233,7 +233,8 @@ TEST(LinkReduction, FlushesDenormalValues) {
     EXPECT_TRUE(std::signbit(results[0][0]));
 }
 
-// The difference is denormal, so the first sum would be -0, and 0 after a 0 is added.
+// The sum of the first two numbers is denormal. It would be −0 for two neighbours, and 0 for three,
+// after 0 is added.
 TEST(LinkReduction, ASumIsNeverMinusZero) {
     KernelBuilder b;
     const ValueId theirs = b.theirs(b.field_slot("f"));
@@ -277,11 +278,12 @@ TEST(LinkCost, CountsWhatIsComputedForEachLink) {
     const KernelCost cost = cost_of(std::move(b).finish(), Stencil::linked, 6);
     EXPECT_EQ(cost.operations, 6 * 4 + 1);
     EXPECT_EQ(cost.divisions, 6);
-    EXPECT_EQ(cost.loads, 6 * 2 + 1);  // Places, neighbours, and the cell.
+    EXPECT_EQ(cost.loads, 6 * 2 + 1);  // Indices of links, neighbours, and the cell.
     EXPECT_EQ(cost.link_bytes, 6 * 4);
 }
 
-/// Sums over links that share computations for a link, or sums of one field each.
+/// A kernel of sums over links. If `is_shared`, all sums need the same length for each link,
+/// otherwise each needs the length for its own field.
 CellKernel kernel_of_sums(std::size_t results, bool is_shared) {
     KernelBuilder b;
     const auto length = [&](const std::string& name) {

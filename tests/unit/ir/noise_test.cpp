@@ -1,5 +1,5 @@
-// Smooth noise and lattices of seeds: the formulas of the specification, computed here in double
-// precision, and properties of all of them.
+// Smooth noise and lattices of seeds, compared with the formulas of the specification in double
+// precision. Also tests their statistics and symmetries.
 #include "core/hash.h"
 #include "tests/unit/ir/space_fields.h"
 
@@ -44,7 +44,7 @@ std::int64_t wrapped(std::int64_t index, std::int64_t count) {
     return count == 0 ? index : ((index % count) + count) % count;
 }
 
-/// One octave at (x, y); counts of 0 do not wrap.
+/// One octave at (x, y). With a count of 0, the lattice does not wrap along that axis.
 double octave(double x, double y, double side_x, double side_y, std::int64_t count_x,
               std::int64_t count_y, std::uint32_t draw, std::uint32_t stream) {
     const double u = x / side_x, v = y / side_y;
@@ -69,7 +69,8 @@ double octave(double x, double y, double side_x, double side_y, std::int64_t cou
 
 TEST(Noise, IsTheFormulaOfTheSpecification) {
     const Grid grid{96, 60, Boundary::periodic};
-    const Field field = noise(grid, 0.11f, 2, some_key, 7);  // 9 and 6 sides fit.
+    // 9 and 6 sides of the lattice fit into the grid.
+    const Field field = noise(grid, 0.11f, 2, some_key, 7);
     const Grid closed{96, 60, Boundary::no_flux};
     const Field open = noise(closed, 0.11f, 1);
     for (std::int64_t j = 0; j < grid.height; ++j) {
@@ -243,7 +244,7 @@ TEST(Seeds, GoOnAcrossPeriodicSidesOnly) {
     const Field periodic =
         seeds({200, 200, Boundary::periodic}, LatticeKind::square, 0.25f, 0.2f, 0.04f);
     for (std::int64_t k = 0; k < 200; ++k) {
-        // Few cells at the side are at the rim of a disc; a seam would affect many cells.
+        // Few cells at the side are at the rim of a disc. A seam would affect many cells.
         EXPECT_TRUE(periodic.at(0, k) == 0 || periodic.at(0, k) == 1);
     }
     const Field closed =

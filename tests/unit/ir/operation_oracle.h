@@ -12,20 +12,20 @@ namespace cascade::test {
 
 inline bool is_nan_word(std::uint32_t word) { return (word & 0x7fffffffu) > 0x7f800000u; }
 
-/// The same number: equal words, or both NaN.
+/// Whether both words are the same number: equal words, or both NaN.
 inline bool same_word(std::uint32_t a, std::uint32_t b) {
     return a == b || (is_nan_word(a) && is_nan_word(b));
 }
 
-/// A word as a number; denormals are zero.
+/// Reads a word as a number. Denormals are zero.
 inline double read_number(std::uint32_t word) {
     const bool is_tiny = (word & 0x7f800000u) == 0;
     return to_number(is_tiny ? word & 0x80000000u : word);
 }
 
 /// Rounds to 24 bits as if the range of exponents were unlimited, then flushes numbers below
-/// 2^−126. A result of one operation on two binary32 numbers, rounded to binary64 and then again,
-/// is rounded as if once.
+/// 2^−126. If the result of one operation on two binary32 numbers is rounded to binary64 and then
+/// by this function, it is the same as if it were rounded once.
 inline std::uint32_t write_number(double value) {
     if (std::fabs(value) >= 0x1p-100 || std::isnan(value)) {
         return to_bits(static_cast<float>(value));

@@ -49,7 +49,7 @@ Words hostile_words(test::RandomStream& stream, Op op) {
     if (stream.chance(10)) words.b = words.a;
     if (is_shift(op)) words.b = stream.below(32);
     if (op == Op::scale_by_power) words.b = whole_power(stream);
-    // After the rounded product is subtracted, only the part that a single rounding keeps remains.
+    // c is minus the rounded product, so that only the product's rounding error remains.
     if (op == Op::multiply_add && stream.chance(30)) {
         words.c = oracle(Op::multiply, words.a, words.b, 0) ^ 0x80000000u;
     }

@@ -14,7 +14,7 @@ using test::flushed;
 using test::Form;
 using test::infinity;
 using test::nan;
-constexpr double largest_error = 1.2;  // In ulp: as stated in ir/elementary.cpp.
+constexpr double largest_error = 1.2;  // In ulp, as stated in ir/elementary.cpp.
 
 std::vector<float> powers(const std::vector<float>& x, const std::vector<float>& y,
                           Form form = Form::strict) {
@@ -39,7 +39,7 @@ void expect_accurate(const std::vector<float>& x, const std::vector<float>& y) {
     for (const Form form : test::forms()) expect_accurate(x, y, form);
 }
 
-/// Two lists of arguments from `draw(stream)`.
+/// Compares x^y for random arguments from `draw(stream)`.
 template <typename Draw>
 void expect_accurate_for(std::uint64_t seed, const Draw& draw) {
     test::RandomStream stream(seed);
@@ -138,7 +138,8 @@ TEST(Power, ExactPowersOfTwo) {
     EXPECT_EQ(power(16, -0.25f), 0.5f);
 }
 
-// By multiplication: the error of a product of n factors is at most n/2 ulp of the factors' sizes.
+// Powers with whole exponents are products. The error of a product of n factors is at most n/2 ulp
+// of the factors' sizes.
 TEST(Power, WholeConstantExponentsMultiply) {
     test::RandomStream stream(9);
     std::vector<float> x;

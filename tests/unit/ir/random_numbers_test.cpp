@@ -216,7 +216,7 @@ TEST(RandomNumbers, NormalOnesAreNormal) {
     const Field field = random_field(grid, some_key, 0, &KernelBuilder::random_normal);
     const double count = static_cast<double>(grid.cell_count());
     double sum = 0, squares = 0, fourth = 0, largest = 0;
-    std::vector<double> bins(40);  // Bins of 0.2 from −4 to 4; the outer bins contain the tails.
+    std::vector<double> bins(40);  // Bins of 0.2 from −4 to 4. The outer bins contain the tails.
     for (std::int64_t j = 0; j < grid.height; ++j) {
         for (std::int64_t i = 0; i < grid.width; ++i) {
             const double value = field.at(i, j);
@@ -227,7 +227,8 @@ TEST(RandomNumbers, NormalOnesAreNormal) {
             ++bins[static_cast<std::size_t>(std::clamp(std::floor(value * 5) + 20, 0.0, 39.0))];
         }
     }
-    // Moments 0, 1 and 3, within five standard deviations of their estimates.
+    // The mean is 0, the mean square 1 and the mean fourth power 3, within five standard deviations
+    // of their estimates.
     EXPECT_NEAR(sum / count, 0, 5 / std::sqrt(count));
     EXPECT_NEAR(squares / count, 1, 5 * std::sqrt(2 / count));
     EXPECT_NEAR(fourth / count, 3, 5 * std::sqrt(96 / count));

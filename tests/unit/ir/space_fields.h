@@ -15,7 +15,7 @@ namespace cascade::test {
 /// A key of random numbers.
 inline constexpr std::uint64_t some_key = 0x0123456789abcdefULL;
 
-/// Coordinates as in the language.
+/// The coordinates of a cell, as scripts read them: its centre divided by the longest side.
 inline Space space_of(KernelBuilder& builder, const Grid& grid) {
     const auto longest = static_cast<float>(grid.longest_side());
     const auto axis = [&](std::int64_t side, ValueId cell, Boundary boundary) {

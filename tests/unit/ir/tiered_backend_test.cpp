@@ -43,7 +43,7 @@ struct Workshop {
 
     std::mutex mutex;
     std::condition_variable changed;
-    int allowed = 0, begun = 0, done = 0;  ///< Compilations.
+    int allowed = 0, begun = 0, done = 0;  ///< Numbers of compilations.
     Way way = Way::compiles;
     std::shared_ptr<std::atomic<int>> native_calls = std::make_shared<std::atomic<int>>(0);
 
@@ -89,7 +89,7 @@ public:
 
 private:
     std::shared_ptr<Workshop> workshop_;
-    KernelPointer made_;  ///< The kernel for tests of find(), which compile only one.
+    KernelPointer made_;  ///< The last kernel. Tests of find() compile only one.
 };
 
 class TieredBackendTest : public ::testing::Test {
@@ -109,13 +109,13 @@ protected:
         while (kernel.is_provisional()) std::this_thread::yield();
     }
     int native_calls() const { return *shop_->native_calls; }
-    /// Runs a kernel more often than kernels are interpreted before they wait.
+    /// Runs a kernel so often that calls wait until it is compiled.
     void run_often(const Kernel& kernel, std::atomic<int>& calls) const {
         for (; calls < interpreted_calls + 50; ++calls) inputs_.run(kernel);
     }
 
-    /// The number of interpreted calls for the whole grid before a call waits. Each row counts as
-    /// 64 cells more than it has.
+    /// The number of calls for the whole grid that are interpreted before a call waits. Each row
+    /// counts as if it had 64 more cells.
     static constexpr int interpreted_calls = cells_worth_compiling / (9 * (40 + 64));
 
     Grid grid_{40, 9, Boundary::periodic};
@@ -215,13 +215,14 @@ TEST_F(TieredBackendTest, ABackendEndsWithWhatIsWantedAndNoMore) {
     std::thread end([&] { backend_.reset(); });
     shop_->allow(10);
     end.join();
-    // Compilation of the kernel that was only expected may have begun before the end.
+    // The kernel that was only expected may be compiled, too, if its compilation began before the
+    // end.
     EXPECT_GE(shop_->count(shop_->done), 2);
     for (const KernelPointer& kernel : {first, second, unused}) {
         EXPECT_EQ(same_bits(inputs_.run(*kernel), expected_), "");
     }
     EXPECT_EQ(native_calls(), 2);
-    // No thread is left to wake.
+    // Calls must not wait for a thread, since none is left.
     for (int k = 0; k < 1000; ++k) inputs_.run(*unused);
     EXPECT_TRUE(unused->is_provisional());
 }

@@ -22,7 +22,7 @@ struct FunctionOfTwo {
     const char* name;
     ValueId (KernelBuilder::*expand)(ValueId, ValueId);
     double (*exact)(double, double);
-    double largest_error;  ///< In ulp: as stated in spec/numerics.md.
+    double largest_error;  ///< In ulp, as stated in spec/numerics.md.
 };
 
 /// a − b · floor(a / b) in long double, whose 64 bits represent every remainder of such numbers.

@@ -26,7 +26,7 @@ std::unique_ptr<Backend> jit_of(int lanes, int optimise) {
     return made ? std::move(*made) : nullptr;
 }
 
-/// Compares one kernel on one grid. The text describes the first difference or a stray write.
+/// Compares one kernel on one grid. Describes the first difference or a stray write.
 std::string difference(Backend& jit, const CellKernel& kernel, const Grid& grid,
                        std::uint64_t seed) {
     const auto compiled = jit.compile(kernel, grid.stencil());
@@ -49,7 +49,7 @@ struct Backends {
     std::unique_ptr<Backend> optimised[3] = {jit_of(4, 2), jit_of(8, 2), jit_of(16, 2)};
 };
 
-// Each kernel is compiled for two widths; over all kernels every combination occurs.
+// Each kernel is compiled for two widths. Over all kernels, every combination occurs.
 void compare_random_kernels(Precision precision, std::uint64_t count, bool links = false,
                             std::uint64_t first_seed = 1) {
     Backends backends;
@@ -120,7 +120,7 @@ TEST(JitAgreement, ContractedKernels) {
     EXPECT_GT(fused, 200u);
 }
 
-/// All sums over links of two fields, and values that depend on a cell's position.
+/// A kernel with all sums over links of two fields, and values that depend on the cell's position.
 CellKernel kernel_of_links(Precision precision) {
     KernelBuilder builder(precision);
     const FieldSlot a = builder.field_slot("a"), b = builder.field_slot("b");
@@ -153,7 +153,7 @@ CellKernel kernel_of_reductions(Precision precision) {
     return std::move(builder).finish();
 }
 
-// One cell, rows of one cell, partly filled slices, with links to all cells.
+// One cell, rows of one cell, and partly filled slices. Each cell has links to all cells.
 TEST(JitAgreement, EveryShapeOfRowsOfLinkedCells) {
     Backends backends;
     for (const CellKernel& kernel :
@@ -265,13 +265,13 @@ TEST(JitAgreement, EveryShapeOfGrid) {
     }
 }
 
-// For wide planes the loop prefetches, with another copy of the body.
+// For wide planes, another copy of the loop's body prefetches.
 TEST(JitAgreement, WidePlanes) {
     Backends backends;
     for (const std::int64_t width : {127, 128, 129, 300, 1030}) {
         for (const auto& backend : backends.optimised) {
             const Grid grid{width, 3, Boundary::periodic};
-            for (const std::uint64_t seed : {3u, 4u}) {  // Far and near.
+            for (const std::uint64_t seed : {3u, 4u}) {  // The inputs count as far, then as near.
                 ASSERT_EQ(difference(*backend, kernel_of_place(), grid, seed), "")
                     << describe(grid);
                 ASSERT_EQ(difference(*backend, random_kernel(5), grid, seed), "") << describe(grid);
@@ -292,8 +292,8 @@ CellKernel diffusion_kernel(Precision precision) {
     return std::move(builder).finish();
 }
 
-/// The first row whose columns −1 and width are not as `columns` says, as text; empty if there is
-/// none.
+/// Describes the first row whose columns −1 and width are not as `columns` says. Empty if there is
+/// no such row.
 template <typename Number>
 std::string wrong_columns(const Field& field, RowRange rows, HaloColumns columns) {
     const std::int64_t width = field.layout().width;

@@ -16,7 +16,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// a + amount, and the Laplacian of a.
+/// A kernel that computes a + amount, and the Laplacian of a.
 CellKernel small_kernel(float amount, const std::string& field_name = "a") {
     KernelBuilder builder;
     const FieldSlot slot = builder.field_slot(field_name);

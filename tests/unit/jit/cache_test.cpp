@@ -265,7 +265,7 @@ TEST_F(CacheTest, WhatKilledProcessesLeftIsRemoved) {
 }
 
 TEST_F(CacheTest, NothingIsRemovedButWhatWasKeptHere) {
-    // Files of all kinds of owners in a folder that CASCADE_KERNEL_CACHE names.
+    // Files of other programs and other caches in a folder that CASCADE_KERNEL_CACHE names.
     fs::create_directories(folder_);
     fs::permissions(folder_, fs::perms::owner_all);
     const std::string digits(32, 'a');
@@ -288,7 +288,8 @@ TEST_F(CacheTest, ProcessesMayShareAFolder) {
         const pid_t pid = ::fork();
         ASSERT_GE(pid, 0);
         if (pid == 0) {
-            CodeCache cache(folder_, 20000);  // Small enough that they remove each other's files.
+            // So small that the processes remove each other's files.
+            CodeCache cache(folder_, 20000);
             for (int n = 0; n < 500; ++n) {
                 const std::string key = std::to_string(n % 50);
                 const std::string bytes(500 + static_cast<std::size_t>(n % 50), 'y');

@@ -19,7 +19,7 @@ enum class Coupling { none, ring, all };
 struct Family {
     std::size_t species = 0;
     Coupling coupling = Coupling::none;
-    bool stores_rates = false;  ///< The rates are results after the new values.
+    bool stores_rates = false;  ///< Whether the rates are results after the new values.
     Precision precision = Precision::single;
 };
 
@@ -80,7 +80,7 @@ TEST(KernelParts, EachResultIsInOneOfPartsOfEqualSize) {
     }
 }
 
-// Each part would have to add up all species again.
+// If they were divided, each part would have to add up all species again.
 TEST(KernelParts, ResultsThatShareMostOfTheirWorkStayTogether) {
     const std::vector<KernelPart> parts = parts_of(kernel_of({64, Coupling::all}));
     ASSERT_EQ(parts.size(), 1u);

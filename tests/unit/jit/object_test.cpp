@@ -168,7 +168,7 @@ TEST(JitObject, AllTargetsComputeTheSameBits) {
 
 TEST(JitObject, CodeDependsOnTheTarget) {
     RandomKernelOptions options;
-    options.multiply_adds = false;  // The plain target has none.
+    options.multiply_adds = false;  // The plain target has no such instruction.
     const CellKernel kernel = random_kernel(3, options);
     const auto plain = object_of(kernel, Stencil::plane, "f", "x86-64");
     const auto wide = object_of(kernel, Stencil::plane, "f", "x86-64-v4");

@@ -17,8 +17,8 @@ namespace {
 constexpr double largest_exponent(float) { return 252; }
 constexpr double largest_exponent(double) { return 2044; }
 
-/// Numbers of every `stride`th exponent, beginning with denormal ones and ending with infinities
-/// and NaN: of both signs, powers of two, their neighbours and others.
+/// Numbers of both signs with every `stride`th exponent, from denormal numbers to infinities and
+/// NaN: powers of two, their neighbours, and others.
 template <typename Number>
 std::vector<Number> numbers(std::uint64_t stride) {
     constexpr WordFormat format = format_of(precision_of<Number>);
@@ -38,7 +38,7 @@ std::vector<Number> numbers(std::uint64_t stride) {
     return all;
 }
 
-/// Flushes denormal numbers to zero, results before they are rounded.
+/// Flushes denormal numbers to zero. Results are flushed before they are rounded.
 template <typename Number>
 Number flushed(long double x) {
     const auto number = static_cast<Number>(x);
@@ -52,7 +52,7 @@ Number scaled(Number x, double power) {
     return flushed<Number>(std::ldexp(number, static_cast<int>(power)));
 }
 
-/// The interpreter first, then code for vectors of all widths.
+/// Returns the interpreter, followed by backends for vectors of all widths.
 std::vector<std::unique_ptr<Backend>> backends() {
     std::vector<std::unique_ptr<Backend>> all;
     all.push_back(make_interpreter());
@@ -109,7 +109,7 @@ void check_rounding() {
 TEST(WholeNumbers, RoundingIsToEven) { check_rounding<float>(); }
 TEST(WholeNumbers, RoundingIsSoInBinary64) { check_rounding<double>(); }
 
-/// Scaling of constants and by constants, which LLVM may fold.
+/// Checks the scaling of constants, and scaling by constants. LLVM may fold both.
 template <typename Number>
 void check_constants() {
     const std::vector<Number> x = numbers<Number>(1);

@@ -1,4 +1,4 @@
-// Equations of a cell with constant numbers: the builder then folds them to the result of a kernel.
+// Equations of a cell with constant numbers, so that the builder folds their solution to numbers.
 #include "lang/lower/cell_equations.h"
 
 #include <gtest/gtest.h>

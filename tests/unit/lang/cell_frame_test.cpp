@@ -90,7 +90,7 @@ TEST(CellFrame, StartsWithTheAxesThatAreAskedFor) {
             for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(y[k], up[k], 2e-4);
             Vector across = ez;
             for (std::size_t k = 0; k < 3; ++k) across[k] -= dot(ez, up) * up[k];
-            if (std::sqrt(dot(across, across)) < 1e-2) continue;  // ez has no direction.
+            if (std::sqrt(dot(across, across)) < 1e-2) continue;  // ez is nearly parallel to ey.
             const Vector ahead = unit(across);
             for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(z[k], ahead[k], 2e-4);
         }

@@ -33,7 +33,7 @@ protected:
         HandMadeTissue tissue("domain { surface: sphere; precision: double }\nstage s: " + block +
                                   " { founders: 2; duration: 1 }\n",
                               random_places(cell_count, 21));
-        tissue.values("p.x")[1] = 3;  // Touches no other.
+        tissue.values("p.x")[1] = 3;  // Touches no other cell.
         turn_at_random(tissue, 22);
         RandomStream random(23);
         const auto number = [&] { return static_cast<double>(random.symmetric()); };
@@ -49,7 +49,7 @@ protected:
         }
         return tissue;
     }
-    /// Cells with the default parameters of the blocks.
+    /// Cells that follow one block, with these values of its parameters.
     static HandMadeTissue cells_of(const std::string& block,
                                    const std::map<std::string, double>& parameters) {
         HandMadeTissue tissue = cells_of(block);

@@ -21,7 +21,7 @@ struct Checked {
     ast::Script tree;
     std::optional<Program> program;
 
-    /// "line:column: message | hint", in order; warnings begin with "warning".
+    /// "line:column: message | hint", in order. Warnings begin with "warning".
     std::vector<std::string> faults() const {
         std::vector<std::string> lines;
         for (const Diagnostic& fault : diagnostics.sorted()) {

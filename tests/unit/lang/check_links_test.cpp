@@ -9,7 +9,8 @@
 namespace cascade::test {
 namespace {
 
-/// The first message about a rate in a block of cells, without its position; "" if there is none.
+/// The first message about a rate in a block of cells, without its position, or "" if there is
+/// none.
 std::string fault_of(const std::string& rate, const std::string& before = "") {
     const auto checked =
         check_text(before + "cells c {\n  k: 2; q: 0\n  v = 2 * p\n  q' = k * dot(v, v) + q + " +

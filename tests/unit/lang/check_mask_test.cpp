@@ -1,4 +1,5 @@
-// Domains with a mask: the program of correct scripts. tests/scripts/domain has refused scripts.
+// The checker makes the right programs of correct scripts with a mask. tests/scripts/domain tests
+// wrong scripts.
 #include "check_helpers.h"
 #include "lang/lower/lower.h"
 

@@ -1,5 +1,5 @@
-// Domains that are models: the program of correct settings. tests/scripts/domain has refused
-// scripts.
+// The checker makes the right programs of correct settings for models as domains.
+// tests/scripts/domain tests wrong settings.
 #include "check_helpers.h"
 
 #include <gmock/gmock.h>

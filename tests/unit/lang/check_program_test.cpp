@@ -1,4 +1,4 @@
-// Correct texts: the program that the checker makes.
+// The programs that the checker makes of correct texts.
 #include "check_helpers.h"
 #include "lang/syntax/picture_expression.h"
 
@@ -181,7 +181,8 @@ TEST(CheckProgram, Overrides) {
 }
 
 TEST(CheckProgram, OverridesOfASystem) {
-    // A stage of this name comes first; a system of this name means all its stages.
+    // A stage has precedence over a system of the same name. The name of a system means all its
+    // stages.
     const auto checked =
         check_text("stage one: turing_spots { ka: 1 }\nstage stripes: turing_spots { ka: 2 }\n",
                    {"turing_spots.ka=3", "stripes.beta=4"});
@@ -191,7 +192,7 @@ TEST(CheckProgram, OverridesOfASystem) {
     EXPECT_THAT(text, Not(HasSubstr("ka: 2  #")));
     EXPECT_THAT(text, HasSubstr("ka: 3  # uniform"));
     EXPECT_THAT(text, HasSubstr("beta: 4  # uniform"));
-    // A system that no stage uses does not count.
+    // The name of a system that no stage uses is refused.
     EXPECT_THAT(check_text("stage one: turing_spots {}", {"autocatalysis.a=1"})->faults(),
                 ElementsAre("1:1: there is no stage 'autocatalysis' | write one.a"));
 }

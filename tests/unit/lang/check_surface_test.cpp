@@ -1,4 +1,5 @@
-// Domains on a surface: the program of correct scripts. tests/scripts/domain has refused scripts.
+// The checker makes the right programs of correct scripts with a surface as domain.
+// tests/scripts/domain tests wrong scripts.
 #include "check_helpers.h"
 #include "lang/program/evaluate.h"
 

@@ -1,5 +1,5 @@
 // The settings of time: their values in the program, and defaults.
-// tests/scripts/settings/time.cascade has wrong forms.
+// tests/scripts/settings/time.cascade tests wrong settings.
 #include "check_helpers.h"
 
 #include <gmock/gmock.h>
@@ -12,7 +12,7 @@ using ::testing::IsEmpty;
 
 constexpr const char* decay = "system decay { u: 1; k: 2; u' = lap(u) - k * u }\n";
 
-/// A stage of a small system; its statements are on line 2, from column 18.
+/// A stage of a small system. Its statements are on line 2 and begin in column 18.
 std::unique_ptr<Checked> checked_stage(const std::string& statements) {
     return check_text(std::string(decay) + "stage s: decay { " + statements + " }\n");
 }

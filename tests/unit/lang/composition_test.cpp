@@ -95,7 +95,7 @@ TEST(Families, AreWrittenOut) {
         " u[3]' += min(min(u[1], u[2]), u[3]) + max(d[1]*3, d[2]*3)\n"
         " u[1] >= 0; u[2] >= 0; u[3] >= 0; u[1] <= 9\n}\n" +
             run_s);
-    // A member's rate; a mean; an index within an index; indices from 0.
+    // A member's rate, a mean, an index within an index, and indices from 0.
     expect_same_program(
         "system s { i: 0..1; u[i]: 1; w[i]: 1; u[i]' = w[1 - i]; w[i]' = 2 * u[i]'\n"
         "speed: 0.5; w[0]' += mean(mean(u[i] over i) * i over i) }\n" +
@@ -161,7 +161,8 @@ TEST(Derivation, ReplacesAndAdds) {
         "system s { a: 1; b: 2; p: 4; d = p + q; a' = -d; a' += 3; b' = d; b' += 2\n"
         "b' += lap(b); a <= 5; a >= 2; speed: 0.5; iterations: 8; q: 9 }\n" +
             run_s);
-    // From a derived system, written before it; a definition for a parameter; a new species.
+    // A system derived from a derived system that is written after it, with a definition in place
+    // of a parameter, and with a new species.
     expect_same_program(
         "system s: middle { p = 2 * a; c: 1; c' = a }\nsystem middle: base { p: 5 }\n"
         "system base { a: 1; p: 3; a' = p }\n" +

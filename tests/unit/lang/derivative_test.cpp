@@ -13,7 +13,8 @@
 namespace cascade::test {
 namespace {
 
-/// A stage on a small grid; u goes from 0.2 to 1.4 over its columns, v from 2 to 0.5.
+/// A stage on a small grid. From its first to its last column, u goes from 0.2 to 1.4 and v from 2
+/// to 0.5.
 std::unique_ptr<Checked> rates_of(const std::string& statements) {
     auto checked = check_text("system s {\n u: 0.2 + 1.2 * sx\n v: 2 - 1.5 * sx\n k: 3\n" +
                               statements + "\n}\nstage one: s { }\ndomain { grid: 16, 4 }\n");
@@ -27,7 +28,7 @@ void shift(Field& field, float by) {
     }
 }
 
-/// Item and species 0 are u, 1 are v.
+/// Item 0 and species 0 are u. Item 1 and species 1 are v.
 void expect_derivatives(const std::string& rate) {
     const auto checked = rates_of(" u' = " + rate + "\n v' = k * u\n");
     const Program& program = *checked->program;
@@ -97,7 +98,8 @@ TEST(Derivative, GoesThroughDefinitionsAndRates) {
     expect_derivatives("v' + u^2");
 }
 
-/// The largest value of a bound over the cells at the start, before its aggregate.
+/// The two formulas of the bound without their aggregates: the largest value of each over all
+/// cells, at the start.
 std::pair<double, double> bound_at_start(const Checked& checked) {
     const Program& program = *checked.program;
     ScriptRun run(program);
@@ -133,12 +135,12 @@ TEST(JacobianBound, AddsReactionToDiffusion) {
 }
 
 TEST(JacobianBound, TellsDiffusionFromWhatMayGrow) {
-    // Cahn and Hilliard's lap of lap reaches 64 and makes all waves decay; dx makes waves travel.
+    // Cahn and Hilliard's lap of lap reaches 64 and makes all waves decay. dx makes waves travel.
     const auto [whole, reaction] =
         bound_at_start(*rates_of(" w = 0.5 * lap(u)\n u' = -lap(w)\n v' = 2 * dx(v) + dxx(v)\n"));
     EXPECT_DOUBLE_EQ(whole, 32);
     EXPECT_DOUBLE_EQ(reaction, 2);
-    // With the other sign both make waves grow.
+    // With the opposite sign, lap of lap and dxx make waves grow.
     const auto [all, growth] =
         bound_at_start(*rates_of(" w = 0.5 * lap(u)\n u' = lap(w)\n v' = -dxx(v)\n"));
     EXPECT_DOUBLE_EQ(all, 32);

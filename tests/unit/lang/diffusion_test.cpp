@@ -48,7 +48,7 @@ TEST(Diffusion, OfOperatorsInEachOther) {
     EXPECT_EQ(factors_of("lap(u) / 4 - lap(2 * u)"), Texts{"0: -1.75"});
     EXPECT_EQ(factors_of("-lap(lap(u)) - 2 * lap(u)"), (Texts{"0: -2.", "1: 1."}));
     EXPECT_EQ(factors_of("lap(lap(lap(u)))"), Texts{"2: 1."});
-    // u is 0.375 and 0.625: 3 u² - 1.
+    // The factor is 3 u² − 1, where u is 0.375 or 0.625.
     EXPECT_EQ(factors_of("lap(u^3 - u - 0.5 * lap(u))"), (Texts{"0: 0.171875 changing", "1: 0.5"}));
     EXPECT_EQ(factors_of("dxx(u) + 3 * dyy(u)"), (Texts{"4: 1.", "5: 3."}));
 }
@@ -62,7 +62,7 @@ TEST(Diffusion, OfFluxesAndDirections) {
     EXPECT_EQ(factors_of("div(u * grad(v))"), Texts{});
     EXPECT_EQ(factors_of("cos(t) * lap(u)"), Texts{"0: 1. changing"});
     EXPECT_EQ(factors_of("diffuse(u, 2, 1, 0)"), (Texts{"4: 4.", "5: 1."}));
-    // At 45° both axes get 2.5, and twice 1.5 across them.
+    // At 45°, the differences along both axes get 2.5, and the mixed difference gets twice 1.5.
     EXPECT_EQ(factors_of("diffuse(u, 2, 1, pi / 4)"), (Texts{"4: 2.5", "5: 2.5", "7: 3."}));
     EXPECT_EQ(factors_of("diffuse(u, 1, 2, pi / 4)"), (Texts{"4: 2.5", "5: 2.5", "7: -3."}));
     // If the angle differs from cell to cell, 1.5 is added to both axes.

@@ -1,4 +1,5 @@
-// Lengths of the domain mean the same as formulas with these numbers.
+// Formulas with lengths of the domain, such as domain.width, mean the same as formulas with the
+// numbers of these lengths.
 #include "check_helpers.h"
 
 #include "lang/program/program.h"

@@ -20,7 +20,7 @@ std::string equations(const std::string& text, const std::string& system, Notati
     return print_equations(script, sources, system, notation, parts);
 }
 
-/// The right side of `q = …`.
+/// Prints the right side of `q = …` in Unicode.
 std::string unicode(const std::string& expression) {
     const std::string text =
         equations("system s { q = " + expression + " }", "s", Notation::unicode);
@@ -34,7 +34,7 @@ std::string tex(const std::string& expression) {
     return text.substr(begin, text.find("\n\\end", begin) - begin);
 }
 
-/// The right side of `q = …`, as one row.
+/// Prints the right side of `q = …` in MathML, as one row.
 std::string mathml(const std::string& expression) {
     Sources sources;
     Diagnostics diagnostics;
@@ -160,7 +160,8 @@ TEST(Equations, ShowADerivedSystemAsAWhole) {
                         "system c: b { u' = k }",
                         "b", Notation::unicode),
               "  ∂u/∂t = ∇²u + d − u\n  where    d = k²\n  with     k = 3\n  at first u = 1\n");
-    // A definition replaces a parameter, and all members replace one.
+    // A definition replaces a parameter, and a rule for all members replaces the rule of one
+    // member.
     EXPECT_EQ(equations("system a { i: 1..2; k: 1; u[i]: 1; u[2]: 5; u[i]' = k }\n"
                         "system b: a { k = 2; u[i]: 3; u[1]: 4; u[2]' = 7 }",
                         "b", Notation::unicode),

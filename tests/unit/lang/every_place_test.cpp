@@ -13,7 +13,7 @@ namespace {
 /// A call with as many of these arguments as the function takes.
 std::string call_of(const FunctionInfo& row, const std::string& first, const std::string& other) {
     const auto count = static_cast<std::size_t>(row.arity.least);
-    if (row.spelling.starts_with('(')) return "";  // Made by lowering.
+    if (row.spelling.starts_with('(')) return "";  // Only lowering makes it.
     if (const auto over = row.spelling.find(" over "); over != std::string_view::npos) {
         const std::string word(row.spelling.substr(over + 6));
         return fmt::format("{}({} over {})", row.spelling.substr(0, over), first,
@@ -170,8 +170,8 @@ std::vector<std::string> all_places() {
 TEST(EveryPlace, TakesOrRefusesEveryExpression) {
     LastScript last;
     const std::vector<std::string> expressions = all_expressions();
-    // Each position is tested with two of three expressions, so at least once with each function.
-    // This saves time.
+    // To save time, each position is tested with only two of three expressions, and so at least
+    // once with each function.
     std::size_t right = 0, count = 0, turn = 0;
     for (const std::string& place : all_places()) {
         const std::size_t at = place.find('#');

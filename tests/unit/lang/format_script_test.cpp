@@ -16,7 +16,7 @@ std::optional<std::string> formatted(const std::string& text) {
     return format_script(sources.add("test.cascade", text), sources, diagnostics);
 }
 
-/// The formatted text. If formatting again would change it, both results.
+/// Formats a text. If formatting again would change the result, returns both results.
 std::string once(const std::string& text) {
     const auto first = formatted(text);
     if (!first) return "cannot be read";

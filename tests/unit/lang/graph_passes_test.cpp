@@ -1,4 +1,4 @@
-// Graph passes: properties of every graph after each pass, and the effects of some.
+// Graph passes: properties of every graph after each pass, and the effects of some passes.
 #include "check_helpers.h"
 #include "verify_expressions.h"
 
@@ -27,7 +27,7 @@ const std::string torus =
 const std::string sphere = "domain { surface: sphere; cells: 64 }\n";
 const std::string masked = "domain { grid: 16, 16; mask: sx < 0.5 }\n";
 
-/// Checks every graph of a script; returns those of a step as text, by pass.
+/// Checks every graph of a script after each pass. Returns the graphs of a step as text, by pass.
 std::map<std::string, std::string> verified(const std::string& script) {
     std::map<std::string, std::string> steps;
     const auto checked = check_text(script);
@@ -156,7 +156,8 @@ TEST(GraphPasses, FastStepsFuseProducts) {
     };
     EXPECT_EQ(fast("u' = k * u + v"),
               "%0 = k\n%1 = u\n%3 = v\n%4 = (multiply_add)(%0, %1, %3)  # u'\nresult %4\n");
-    // The product with a coefficient is fused, otherwise the second; a negated factor varies.
+    // The product with a coefficient is fused. If both products vary, the second is fused. A
+    // negation moves to the factor that varies.
     EXPECT_THAT(fast("u' = k * u + u * v"),
                 HasSubstr("%4 = %1 * %3\n%5 = (multiply_add)(%0, %1, %4)"));
     EXPECT_THAT(fast("u' = u * u + u * v"),
@@ -164,7 +165,7 @@ TEST(GraphPasses, FastStepsFuseProducts) {
     EXPECT_THAT(fast("u' = v - u * k"),
                 HasSubstr("%2 = k\n%4 = -(%1)\n%5 = (multiply_add)(%2, %4, %0)"));
     EXPECT_THAT(fast("u' = v + u / k"), HasSubstr("(multiply_add)("));
-    // Step-invariant products are rounded, and so is twice a product.
+    // Step-invariant products are rounded, and so is a product that is added to itself.
     EXPECT_EQ(fast("u' = w * w + x").find("multiply_add"), std::string::npos);
     EXPECT_EQ(fast("p = u * v; u' = p + p").find("multiply_add"), std::string::npos);
     EXPECT_EQ(fast("u' = u * v"), "") << "nothing to do";

@@ -1,4 +1,4 @@
-// Cells that crawl with planes and links made by a test, on which the plans of a stage run without
+// Cells that crawl, with planes and links made by a test. The plans of a stage run on them without
 // the time loop.
 #pragma once
 
@@ -24,7 +24,7 @@
 
 namespace cascade::test {
 
-/// The cells of the last stage of a script in double precision. Their links lead to all others.
+/// The cells of the last stage of a script in double precision. Each cell has links to all others.
 class HandMadeTissue {
 public:
     using Values = std::vector<double>;  ///< A value for each cell.

@@ -7,10 +7,10 @@
 namespace cascade::test {
 
 struct HintCase {
-    std::string_view frame;   ///< The script around the text: see hints_test.cpp.
+    std::string_view frame;   ///< The name of the script around the text, see hints_test.cpp.
     std::string_view before;  ///< The text with one error.
     std::string_view hint;
-    std::string_view after = "";  ///< The corrected text; empty: the hint replaces the marked text.
+    std::string_view after = "";  ///< The new text, or empty if the hint replaces the marked text.
 };
 
 inline constexpr HintCase hint_cases[] = {

@@ -78,7 +78,7 @@ std::vector<HintCase> all_cases() {
 
 TEST(Hints, MendWhatTheyStandAt) {
     for (const HintCase& each : all_cases()) {
-        const bool is_option = each.frame == "set";  // The text of --set.
+        const bool is_option = each.frame == "set";  // The text is the value of --set.
         const std::string before(is_option ? std::string(each.before)
                                            : framed(each.frame, each.before));
         auto checked = is_option ? check_option(before) : check_text(before);
@@ -118,7 +118,7 @@ std::string used(WordContext context, std::string_view word) {
         case WordContext::function: return fmt::format("{}(u)", word);
         case WordContext::value: return std::string(word);
         case WordContext::statement: return fmt::format("{} q", word);
-        // The value is no single number, because the advice would contain such a number.
+        // The value is not a single number, because the advice would repeat a single number.
         default: return fmt::format("{}: 1 + 1", word);
     }
 }
@@ -142,7 +142,7 @@ std::string advised(WordContext context, const std::string& advice) {
     if (context == WordContext::boundary && !is_setting) return framed(frame, "boundary: " + text);
     if (context == WordContext::side && !is_setting) return framed(frame, "sides: " + text);
     if (context == WordContext::precision) return framed(frame, "precision: " + text);
-    // The advice on functions of vectors calls the vector v, which is a number in the frame.
+    // The advice on functions of vectors calls the vector v, but v is a number in the frame.
     if (context == WordContext::function && text.ends_with("(v)")) {
         const std::string of_vector = text.substr(0, text.size() - 2) + "vector(u, v))";
         return framed(frame, text.starts_with("unit") ? "div(" + of_vector + ")" : of_vector);
@@ -179,7 +179,7 @@ std::string unescaped(const std::string& literal) {
     return text;
 }
 
-/// Whether this text of the sources is the beginning of the hint, with anything in place of `{…}`.
+/// Whether a hint begins with this text of the sources, in which `{…}` stands for anything.
 bool begins(std::string text, std::string_view hint) {
     text = std::regex_replace(text, std::regex(R"(\{\{|\}\})"), "\x01");  // A literal bracket.
     std::size_t place = 0;
@@ -207,8 +207,8 @@ std::set<std::string> hints_in_sources() {
     const std::filesystem::recursive_directory_iterator front_end(CASCADE_SOURCE_DIR "/lang");
     for (const auto& entry : front_end) {
         const std::string name = entry.path().filename().string();
-        // Rows of these tables have a test of their own; printed trees are no hints; tables of
-        // numbers are files, which tests/table_functions_test.sh writes.
+        // Rows of these tables have a test of their own. Printed trees are no hints. Hints on
+        // tables of numbers need files, so tests/table_functions_test.sh tests them.
         if (name.starts_with("words_elsewhere") || name.starts_with("print_") ||
             name.starts_with("describe_") || name.starts_with("parse_table")) {
             continue;

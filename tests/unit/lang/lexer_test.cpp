@@ -15,7 +15,7 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 
 struct Lexed {
-    std::string tokens;  ///< Spellings with one blank between them; the end is left out.
+    std::string tokens;  ///< Spellings, separated by one blank. The end is left out.
     std::vector<std::string> faults;
 };
 
@@ -100,7 +100,7 @@ TEST(Lexer, PrintsTokens) {
               "4:4 end of text\n");
 }
 
-/// Each text, its tokens and its only message.
+/// A text, its tokens and its only message.
 struct Fault {
     std::string text, tokens, message;
 };

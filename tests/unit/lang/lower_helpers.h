@@ -162,7 +162,7 @@ private:
 
 inline const std::string small_grid = "domain { grid: 8, 4 }\n";
 
-/// A system with a parameter `p` and a species `u` that only reads it.
+/// A system with a parameter `p` and a species `u` whose rate is `p`.
 inline std::string system_with(const std::string& p) {
     return "system s { u: 0; p: " + p + "; u' = p }\nstage one: s {}\n";
 }

@@ -91,7 +91,8 @@ TEST(Lower, ShapesInSpace) {
 }
 
 TEST(Lower, RandomFunctionsOfOneExpressionAreTold) {
-    // The first of two equal calls, alone, draws the same numbers; the second others.
+    // Of two equal calls, the first draws the same numbers as a single call would, and the second
+    // draws others.
     const std::string grid = "domain { grid: 8, 4; seed: 5 }\n";
     EXPECT_EQ(FormulaValues(grid, "normal(0, 1) + 0 * normal(0, 1)").at(3, 2),
               FormulaValues(grid, "normal(0, 1)").at(3, 2));
@@ -113,7 +114,7 @@ TEST(Lower, WhiteNoiseDoesNotDependOnTheStep) {
         const Field rate = run.rates(0)[0].clone();
         double squares = 0;
         for (int k = 0; k < 4096; ++k) squares += std::pow(rate.at(k % 64, k / 64), 2) / 4096;
-        // The noise of one unit of time has the variance k², within five deviations.
+        // The noise of one unit of time has the variance k², within five standard deviations.
         EXPECT_NEAR(squares * std::stod(speed), 9, 9 * 5 * std::sqrt(2.0 / 4096)) << speed;
     }
 }
@@ -147,7 +148,7 @@ TEST(Lower, RandomNumbers) {
             different.insert(first.at(i, j));
         }
     }
-    // Mean 0 and variance s²/3 within five standard errors of 4096 draws.
+    // The mean is 0 and the variance s²/3, within five standard errors of 4096 draws.
     EXPECT_LT(std::abs(sum / 4096), 5 * 3 / std::sqrt(3.0 * 4096));
     EXPECT_NEAR(squares / 4096, 3.0, 5 * 3 * 0.298 * 3 / 64);
     EXPECT_GT(different.size(), 4000u);

@@ -32,7 +32,7 @@ TEST(Margin, IsAboveZeroWhereTheConditionHolds) {
           "(u > 0.5) + (u > 0.7) > 1"}) {
         const Both found = both(condition);
         for (std::int64_t i = 0; i < 101; ++i) {
-            if (found.margin.at(i, 0) == 0) continue;  // Where it changes.
+            if (found.margin.at(i, 0) == 0) continue;  // Here the condition changes.
             EXPECT_EQ(found.condition.at(i, 0) != 0, found.margin.at(i, 0) > 0)
                 << condition << " at " << i;
         }

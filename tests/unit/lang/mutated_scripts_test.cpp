@@ -16,7 +16,8 @@
 namespace cascade::test {
 namespace {
 
-/// Words, numbers, quoted texts, line ends and single signs; blanks belong to the token after them.
+/// Splits a text into words, numbers, quoted texts, line ends and single signs. Blanks belong to
+/// the token after them.
 std::vector<std::string> tokens_of(std::string_view text) {
     const auto is_word = [](char c) {
         return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c < 0;

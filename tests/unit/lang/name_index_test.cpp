@@ -96,7 +96,7 @@ TEST(NameIndex, FindsAllUsesOfAQuantity) {
 }
 
 TEST(NameIndex, FindsNamesInATextWithSyntaxErrors) {
-    // The block ends before the rate of u, so the system is not whole.
+    // The block ends before the rate of u, so the system is incomplete.
     const Asked asked("system s { u: 1; |k: 2; stage u' = -k * u }\nstage one: s { u: 2 }\n");
     EXPECT_EQ(asked.declaration(), "asked.cascade:1:18");
 }
@@ -190,7 +190,7 @@ TEST(NameIndex, RefusesNamesThatMeanSomethingElse) {
     for (const char* wrong : {"", "2k", "a b", "a.b"}) {
         EXPECT_THAT(k.renamed(wrong).error().message, HasSubstr("is not a name")) << wrong;
     }
-    EXPECT_TRUE(k.renamed("a"));  // A system and a parameter may have one name.
+    EXPECT_TRUE(k.renamed("a"));  // A system and a parameter may have the same name.
     const Asked parameter("fn f(r|, w) = r * w\nsystem s { u: f(1, 2); u' = u }\nstage t: s { }\n");
     EXPECT_FALSE(parameter.renamed("w"));
     EXPECT_TRUE(parameter.renamed("v"));

@@ -28,7 +28,7 @@ inline std::vector<Vector3d> random_places(std::size_t count, std::uint64_t seed
     return places;
 }
 
-/// Gives cells random frames: quaternions of any length.
+/// Gives cells random frames, whose quaternions have any length.
 inline void turn_at_random(HandMadeTissue& tissue, std::uint64_t seed) {
     RandomStream random(seed);
     for (std::size_t cell = 0; cell < tissue.size(); ++cell) {

@@ -104,7 +104,7 @@ TEST(PaperNotation, ReportsWhatCouldBeReadInTwoWays) {
     }
 }
 
-/// Tokens have the spans of the source text; an implied token has an empty span.
+/// Tokens have the spans of the source text, and implied tokens have empty spans.
 TEST(PaperNotation, KeepsThePlaces) {
     Sources sources;
     Diagnostics diagnostics;

@@ -16,7 +16,7 @@ namespace cascade::test {
 struct Parsed {
     std::string tree;
     std::vector<std::string> faults;
-    std::unique_ptr<Sources> sources;  ///< The script's words are views into it.
+    std::unique_ptr<Sources> sources;  ///< The script's words are views into these sources.
     ast::Script script;
 };
 

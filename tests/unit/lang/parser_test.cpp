@@ -225,7 +225,8 @@ std::string repeat(const std::string& piece, int count) {
 }
 
 TEST(LargeScripts, DepthAndLengthAreNoProblem) {
-    const std::string last = "3:4 this ']' closes nothing";  // The parser has read up to this line.
+    // The parser has read the text as far as this line.
+    const std::string last = "3:4 this ']' closes nothing";
     const int deep = 100'000, many = 1'000'000;
     EXPECT_THAT(faults_of_large(repeat("(", deep) + "1" + repeat(")", deep)), ElementsAre(last));
     EXPECT_THAT(faults_of_large(repeat("f(", deep) + "1" + repeat(")", deep)), ElementsAre(last));

@@ -112,7 +112,7 @@ std::uint32_t step_invariants(const std::string& statements) {
 }
 
 TEST(Plan, WhatNoStepChangesIsKept) {
-    // The parameter is in a plane already; one more operation is not worth another plane.
+    // The parameter is already in a plane, and one more operation is not worth another plane.
     EXPECT_EQ(step_invariants("u: x; k: x * y; u' = 2 * k * u"), 0u);
     EXPECT_EQ(step_invariants("u: x; k: x * y; u' = exp(k) * u"), 1u);
     EXPECT_EQ(step_invariants("u: x; u' = exp(u) * sin(t) + random(0, 1)"), 0u)
@@ -177,14 +177,16 @@ TEST(Plan, WhatIsOpenAtSidesIsComputedThere) {
     const PlanOptions writing{Materialise::always, true};
     EXPECT_EQ(sided("u: x; u' = lap(exp(u))", open, writing).passes.size(), 1u);
     EXPECT_EQ(sided("u: x; u' = lap(exp(u))", "boundary: noflux", writing).passes.size(), 2u);
-    // The inner operator is written; mu, which depends on it and on u, is computed around it.
+    // The inner operator is written to a plane. mu depends on its value and on u, and is computed
+    // again around each cell.
     const StepPlan plan = sided("u: x; mu = exp(u) - lap(u); u' = lap(mu)", open, writing);
     EXPECT_EQ(plan.passes.size(), 2u);
     EXPECT_EQ(plan.temporaries, 1u);
     EXPECT_THAT(plan.words, HasSubstr("mu is computed again at 4 neighbours for u': beyond a side "
                                       "it depends on the values there"));
     EXPECT_EQ(plan.passes[0].targets[0].boundary, Boundaries(Boundary::no_flux));
-    // An aggregate of an expression reads its plane, an operator does not.
+    // An aggregate of an expression reads a plane of its values. An operator computes the
+    // expression again.
     EXPECT_EQ(sided("u: x; u' = lap(exp(u)) - mean(exp(u) over domain)", open, writing).temporaries,
               1u);
     // A species with sides in a periodic domain.

@@ -32,7 +32,7 @@ TEST(ReplaceBlocks, WhatIsNewComesAtTheEnd) {
     EXPECT_EQ(with_blocks(script, "stage two: t { }\n# Last.\nstage three: s { }\n"),
               "domain { grid: 8, 8 }\nfn f(x) = x\n# The first.\nstage one: s {\n  k: 1\n}\n"
               "stage two: t { }\n# Last.\nstage three: s { }\n");
-    // A system may have the name of a stage.
+    // A system may have the same name as a stage.
     EXPECT_EQ(with_blocks(script, "system one { }\n"), script + std::string("system one { }\n"));
 }
 

@@ -24,7 +24,8 @@ double neighbour_sum(const Cells& c, int i, int j) {
     return at(i, j - 1) + at(i, j + 1) + at(i + 1, j) + at(i - 1, j);
 }
 
-/// One cell of Appendix B: species and parameters by name, neighbour sums of the species.
+/// A listing of Appendix B computes the new state of one cell from the values of its species and
+/// parameters, by name, and from the sums of species over its neighbours.
 using State = std::map<std::string, double>;
 using Listing = std::function<State(const State& value, const State& sum)>;
 

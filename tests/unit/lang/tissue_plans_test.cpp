@@ -24,7 +24,8 @@ std::string cells(const std::string& statements, const std::string& domain = "su
 
 TEST(TissuePlans, PushTwoCellsApart) {
     HandMadeTissue tissue(cells("p' += push(0.5)"), {{0.4, 0.5, 0.5}, {0.4, 0.62, 0.59}});
-    // The cells are 0.15 apart and overlap by 0.05; (0, 0.8, 0.6) points from one to the other.
+    // The cells are 0.15 apart and overlap by 0.05. The direction from one to the other is (0, 0.8,
+    // 0.6).
     expect_near(tissue.rate("p.x"), {0, 0}, rounding);
     expect_near(tissue.rate("p.y"), {-0.02, 0.02}, rounding);
     expect_near(tissue.rate("p.z"), {-0.015, 0.015}, rounding);
@@ -46,7 +47,8 @@ TEST(TissuePlans, TakeTheNearestImageOnAPeriodicPlane) {
     const std::string script =
         cells("a: 0; a' = sum(distance over near(0.3)); p' = sum(direction over near(0.3))",
               "grid: 64, 32");
-    // Across the side, 0.1 apart along x (of length 1), and 0.06 along y (of length 1/2).
+    // The cells are neighbours across the side: 0.1 apart along x, whose axis has the length 1, and
+    // 0.06 along y, whose axis has the length 1/2.
     HandMadeTissue across_x(script, {{0.96, 0.2, 0}, {0.06, 0.2, 0}});
     expect_near(across_x.rate("a"), {0.1, 0.1}, rounding);
     expect_near(across_x.rate("p.x"), {1, -1}, rounding);
@@ -136,7 +138,7 @@ protected:
     HandMadeTissue tissue_of(const std::string& statements, std::size_t count = 60) const {
         HandMadeTissue tissue(cells("r: 0.1 in 0 .. 1; q: 0; q' = 0\n" + statements),
                               random_places(count, 8));
-        tissue.values("p.x")[1] = 3;  // Touches no other.
+        tissue.values("p.x")[1] = 3;  // Touches no other cell.
         RandomStream random(9);
         for (std::size_t cell = 0; cell < count; ++cell) {
             tissue.values("r")[cell] = 0.1 + 0.04 * static_cast<double>(random.symmetric());
@@ -325,7 +327,7 @@ TEST(TissueKernels, FindADistanceOnce) {
                           "a: 0; a' = sum(contact over touching) + max(distance over near(0.1))"));
     EXPECT_EQ(count_of(kernel, Op::square_root), 1);
     EXPECT_EQ(count_of(kernel, Op::theirs), 4);
-    // 1/distance, and distance/(r + r') of contact.
+    // 1/distance, and distance/(r + r') for the contact.
     EXPECT_EQ(count_of(kernel, Op::divide), 2);
 }
 

@@ -23,7 +23,7 @@ public:
     Verifier(const Expressions& expressions, const PassContext& context, std::string_view pass)
         : graph_(expressions.graph), context_(context), pass_(pass) {}
 
-    /// The fault of a node; empty if there is none.
+    /// The fault of a node, or empty if there is none.
     std::string fault(NodeId id) const {
         const Node& node = graph_[id];
         for (const NodeId operand : node.reads()) {
@@ -72,7 +72,7 @@ private:
 
     /// Whether everything that depends on the positions of cells has been expanded.
     bool is_laid_out() const { return is_past(context_.is_tissue() ? "tissue" : "links"); }
-    /// A function of vectors in space or of neighbours that lowering has not made for kernels.
+    /// Whether lowering must replace this function of vectors in space or of neighbours.
     static bool is_of_cells(Function function) {
         const FunctionKind kind = info(function).kind;
         return kind == FunctionKind::geometry || is_over_neighbours(function) ||
@@ -150,9 +150,9 @@ private:
     std::string_view pass_;
 };
 
-/// The first fault of a graph after a pass, as text; empty if there is none. Operands come before
-/// their readers, no two nodes are equal, types and numbers of operands fit, and there is no node
-/// that earlier passes replace.
+/// The first fault of a graph after a pass, or empty if there is none. Operands must come before
+/// their readers, no two nodes may be equal, types and numbers of operands must fit, and there must
+/// be no node that earlier passes replace.
 inline std::string verify(const Expressions& expressions, const PassContext& context,
                           std::string_view pass) {
     const ExpressionGraph& graph = expressions.graph;

@@ -38,7 +38,7 @@ TEST(Lines, OfNoText) {
     EXPECT_EQ(lines.byte_at("", {4, 4}), 0u);
 }
 
-/// Long lines have marks, at which counting continues.
+/// For long lines, positions are stored from which counting continues.
 TEST(Lines, AgreeWithACountInLongLines) {
     std::string text;
     for (int k = 0; k < 700; ++k) text += k % 97 == 0 ? "\r\n" : k % 5 == 0 ? "🐆" : "βc";

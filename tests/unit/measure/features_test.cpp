@@ -16,7 +16,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// Values of f at the cell's centre, in cells.
+/// The values of f at the centres of cells. The unit of its coordinates is a cell.
 Samples sampled(std::size_t width, std::size_t height, std::size_t depth,
                 const std::function<double(double x, double y, double z)>& f) {
     Samples samples;
@@ -33,7 +33,7 @@ Samples sampled(std::size_t width, std::size_t height, std::size_t depth,
     return samples;
 }
 
-/// Plane waves of `a` waves across and `b` down.
+/// A plane wave with `a` periods across and `b` periods down.
 Samples stripes(std::size_t width, std::size_t height, double a, double b) {
     return sampled(width, height, 1, [=](double x, double y, double) {
         return 3 +
@@ -79,12 +79,12 @@ TEST(Features, ObliqueStripesOfEveryDirection) {
 }
 
 TEST(Features, ObliqueWavesBetweenMirrors) {
-    // Products of waves have the sides as axes; the axis with more waves counts.
+    // Products of waves have the sides as axes. The axis with more waves counts.
     Samples samples = sampled(64, 64, 1, [](double x, double y, double) {
         return std::cos(pi * 16 * x / 64) + 0.5 * std::cos(pi * 24 * y / 64);
     });
     samples.periodic = {false, false, false};
-    // ⟨f_x²⟩ is 16² : 12² times ⟨f_y²⟩.
+    // ⟨f_x²⟩ : ⟨f_y²⟩ is (1 · 16)² : (½ · 24)² = 16² : 12².
     EXPECT_NEAR(measure(samples).anisotropy, (256.0 - 144) / (256 + 144), 0.02);
     EXPECT_NEAR(measure(samples).angle, 90, 1e-6);
 }
@@ -136,7 +136,7 @@ TEST(Features, SpotsAreCountedAcrossPeriodicBorders) {
     EXPECT_EQ(found.holes, 1);
     EXPECT_NEAR(found.wavelength, 20, 0.5);
     EXPECT_LT(found.anisotropy, 1e-9);
-    // If not periodic, there are 4 × 4 whole bumps, 4 · 4 halves and the 4 corners.
+    // Without periodic sides, there are 4 × 4 whole bumps, 4 · 4 halves and the 4 corners.
     samples.periodic = {false, false, false};
     EXPECT_EQ(measure(samples).spots, 36);
     for (double& value : samples.values) value = -value;
@@ -182,7 +182,7 @@ TEST(Features, CellsOutsideCountForNothing) {
 }
 
 TEST(Features, TheSpectrumHoldsTheWholeVariance) {
-    // Parseval's theorem, for every mixture of sides, even and odd numbers of cells.
+    // Parseval's theorem, for every combination of sides, and for even and odd numbers of cells.
     for (const bool across : {true, false}) {
         for (const bool down : {true, false}) {
             for (const std::size_t height : {18U, 25U}) {

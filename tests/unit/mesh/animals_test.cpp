@@ -33,7 +33,8 @@ INSTANTIATE_TEST_SUITE_P(All, Animals,
                                          Case{"frog", frog(), {0.15, 0.06, 0.104}, 4}),
                          [](const auto& one) { return one.param.name; });
 
-/// The number of connected pieces of the surface below a height that reach the ground.
+/// The number of connected pieces of the surface below a height. Only pieces that reach the ground
+/// count.
 std::size_t parts_below(const SurfaceMesh& mesh, double height) {
     DisjointSets sets(mesh.points.size());
     std::set<std::uint32_t> parts;

@@ -30,7 +30,7 @@ inline bool is_closed(const TriangleMesh& mesh) {
     return !edges.empty();
 }
 
-/// Positive if the triangles face outwards.
+/// The enclosed volume. It is positive if the triangles face outwards.
 inline double volume_of(const TriangleMesh& mesh) {
     double sum = 0;
     for (const auto& [a, b, c] : mesh.triangles) {

@@ -12,7 +12,7 @@ inline TriangleMesh mesh_of_surface(const SweptSurface& surface, const SweptDeta
     return *swept_shape(surface, *facets_for(surface, detail));
 }
 
-/// A ball of radius 1 around the origin, half of it below y = 0.
+/// A ball of radius 1, centred at the origin.
 inline TriangleMesh ball(const SweptDetail& detail) {
     using std::numbers::pi;
     return mesh_of_surface(surface_of({[](double t, double) { return std::sin(pi * t); },

@@ -126,7 +126,7 @@ void expect_texture(BuiltGltf& file, const std::vector<std::array<double, 2>>& w
     }
 }
 
-/// A triangle with a material; returns its texture of base colours.
+/// Gives the triangle a material, and returns its texture of base colours.
 Json& textured(BuiltGltf& file) {
     file.primitive()["attributes"]["TEXCOORD_0"] = file.add<float>("VEC2", {0, 0, 1, 0, 0, 1});
     file.primitive()["attributes"]["TEXCOORD_1"] =
@@ -160,7 +160,8 @@ TEST(GltfTexture, TheSetThatTheMaterialNames) {
     Json& texture = textured(file);
     texture["texCoord"] = 1;
     expect_texture(file, {{0, 0}, {1, 1}, {0, 0.2}});
-    texture["texCoord"] = 5;  // There is no such set: the first set, without the transform.
+    // This set does not exist, so the first set is used, without the transform.
+    texture["texCoord"] = 5;
     texture["extensions"]["KHR_texture_transform"]["offset"] = {7, 7};
     expect_texture(file, {{0, 0}, {1, 0}, {0, 1}});
     // Without a texture of colours, the coordinates for the texture of normals are used.

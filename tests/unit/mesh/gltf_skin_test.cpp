@@ -74,7 +74,7 @@ TEST(GltfSkin, TwoNodesAndTwoScenesShareASkin) {
     file.json["nodes"].push_back({{"mesh", 0}, {"translation", {0, 0, 1}}});
     file.json["scenes"].push_back({{"nodes", {1, 3, 4}}});
     file.json["scene"] = 1;
-    // In the order of the scene; node 4 has no skin.
+    // The order is that of the scene. Node 4 has no skin.
     expect_points(file.points(),
                   {{0, 0, 5}, {1, 0, 5}, {0, 2, 5}, {0, 0, 1}, {1, 0, 1}, {0, 2, 1}});
 }

@@ -61,7 +61,7 @@ TEST(HalfEdges, TwoEdgesBetweenTwoPointsStayTwo) {
     const auto made = half_edges(mesh);
     ASSERT_TRUE(made);
     EXPECT_EQ(made->n_edges(), facts_of(mesh).edges);
-    // OpenMesh's add_face() would make them one edge and lose the hole.
+    // OpenMesh's add_face() would merge the two edges and lose the hole.
     HalfEdges added;
     for (const Vector3d& p : mesh.points) added.add_vertex({p.x, p.y, p.z});
     for (const auto& [a, b, c] : mesh.triangles) added.add_face(vertex(a), vertex(b), vertex(c));

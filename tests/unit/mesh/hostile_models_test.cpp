@@ -238,7 +238,7 @@ TEST(HostileModels, NestingAndCopiesWithoutEnd) {
     std::string quoted = test::gltf_text();
     quoted.insert(1, R"("extras":"\")" + std::string(300, '[') + R"(",)");
     EXPECT_EQ(outcome_of_bytes(quoted, "gltf"), "");
-    // A node with two parents occurs twice, and so on.
+    // A node with two parents occurs twice, its child with two such parents four times, and so on.
     std::string nodes = R"("nodes":[)";
     for (int k = 1; k <= 40; ++k) {
         nodes += R"({"children":[)" + std::to_string(k) + "," + std::to_string(k) + "]},";

@@ -63,7 +63,7 @@ TEST(MakeMesh, ATorusHasTheEulerCharacteristicOfATorus) {
 
 TEST(MakeMesh, BoundariesArePiecesOfRim) {
     PolygonSoup open = cube();
-    open.ends.resize(4);  // Without two adjacent sides: one boundary.
+    open.ends.resize(4);  // Without two adjacent sides, there is one boundary.
     open.corners.resize(16);
     const MeshFacts one = facts_of(made(open).mesh);
     EXPECT_EQ(one.boundaries, 1u);
@@ -120,7 +120,7 @@ TEST(MakeMesh, AFinEndsWhereItMeetsTheSurface) {
     const MeshFacts facts = facts_of(made(finned).mesh);
     EXPECT_DOUBLE_EQ(facts.area, 7);
     EXPECT_EQ(facts.components, 2u);
-    EXPECT_EQ(facts.boundaries, 1u);  // That of the fin; the cube remains closed.
+    EXPECT_EQ(facts.boundaries, 1u);  // This is the boundary of the fin. The cube remains closed.
 }
 
 TEST(MakeMesh, FacesAreTurnedToAgree) {

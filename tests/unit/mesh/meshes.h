@@ -11,7 +11,7 @@ namespace cascade::test {
 
 inline SurfaceMesh box() { return make_mesh(cube())->mesh; }
 
-/// A square 0..1² of two triangles.
+/// The square 0..1², made of two triangles.
 inline SurfaceMesh square() {
     return make_mesh(soup_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2, 3}}))->mesh;
 }
@@ -44,8 +44,8 @@ inline SurfaceMesh sphere(int n) {
     return make_mesh(std::move(soup))->mesh;
 }
 
-/// A sheet of columns × rows squares with corner (u, v) of 0..1² at `place(u, v)`. Each square is
-/// divided along one diagonal. Sides that coincide are joined.
+/// A sheet of columns × rows squares. The corner (u, v) of 0..1² is at `place(u, v)`. Each square
+/// is divided along one diagonal. Sides that coincide are joined.
 inline SurfaceMesh sheet(int columns, int rows,
                          const std::function<Vector3d(double, double)>& place) {
     PolygonSoup soup;
@@ -75,7 +75,7 @@ inline Vector3d on_circle(double u) {
     return {std::cos(angle), std::sin(angle), 0};
 }
 
-/// The side of a cylinder around the z axis, z in 0..height, outwards.
+/// The side of a cylinder around the z axis, from z = 0 to z = height, facing outwards.
 inline SurfaceMesh cylinder(int columns, int rows, double radius, double height) {
     return sheet(columns, rows, [&](double u, double v) {
         return on_circle(u) * radius + Vector3d{0, 0, height * v};

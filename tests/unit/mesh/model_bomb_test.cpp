@@ -23,7 +23,7 @@ std::string repeated(const std::string& text, int count) {
     return all;
 }
 
-/// 900 bytes of coordinates are 300 points.
+/// A file with these parts, and with 900 bytes of coordinates for 300 points.
 std::string with_nodes(const std::string& nodes, const std::string& primitives,
                        const std::string& roots) {
     return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[)" + roots +

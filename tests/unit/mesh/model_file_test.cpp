@@ -61,7 +61,7 @@ TEST(ModelFile, APlyFileOfText) {
     EXPECT_THAT(soup->polygon(1), ElementsAre(0, 1, 2));
     EXPECT_THAT(soup->polygon(2), ElementsAre(2, 1, 3));
     EXPECT_THAT(soup->polygon(3), ElementsAre(4, 2, 1));
-    EXPECT_TRUE(soup->texture.empty());  // The strips have none.
+    EXPECT_TRUE(soup->texture.empty());  // The strips have no texture coordinates.
     ASSERT_EQ(soup->attributes.size(), 2u);
     EXPECT_EQ(soup->attributes[0].name, "red");
     EXPECT_THAT(soup->attributes[1].values, ElementsAre(1, 2, 3, 4, 5));
@@ -206,7 +206,7 @@ TEST(ModelFile, StlFilesWithMoreThanTheirTriangles) {
             ASSERT_TRUE(soup) << head << more << fault_of(soup);
             EXPECT_EQ(soup->polygon_count(), 2u);
         }
-        // A count that is too small, or has not been written yet.
+        // A count that is too small, or that has not been written yet.
         for (const std::uint32_t count : {0u, 1u}) {
             const auto soup = read_stl(binary(head, count, 3));
             ASSERT_FALSE(soup);

@@ -1,5 +1,5 @@
-// Files that are not what their name says, cut files, and files of programs with habits of their
-// own: each is read, or refused with its reason.
+// Files that are not what their name says, cut files, and files with peculiarities of the programs
+// that wrote them. Each file is read, or refused with the reason.
 #include "built_gltf.h"
 #include "mesh/model_file.h"
 #include "support/small_models.h"
@@ -116,7 +116,7 @@ TEST(OddFiles, PlyFilesOfOldMacintoshPrograms) {
     std::string text(ply_of_a_triangle);
     std::replace(text.begin(), text.end(), '\n', '\r');
     EXPECT_EQ(answer_to(text, "ply"), "read");
-    // Bytes of binary numbers after such a header may be line feeds.
+    // After a header with such line ends, bytes of binary numbers may be line feeds.
     std::string binary = with(text, "ascii", "binary_little_endian");
     binary.resize(binary.find("end_header") + std::string("end_header\r").size());
     for (const float number : {0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F})

@@ -47,7 +47,7 @@ TEST(Shapes, ASphereOfEvenTriangles) {
             EXPECT_NEAR(last / missing, 4, 0.3) << "the error is of second order";
         }
         last = missing;
-        expect_texture_unfolds(sphere, 0.2001F);  // At a pole five triangles make up a turn.
+        expect_texture_unfolds(sphere, 0.2001F);  // At a pole, five triangles make a full turn.
         double least = 1e9, most = 0;
         for (std::size_t t = 0; t < sphere.triangles.size(); ++t) {
             least = std::min(least, sphere.area(t));
@@ -104,7 +104,8 @@ TEST(Shapes, ABoxHasSharpEdges) {
         EXPECT_TRUE(std::abs(defect) < 1e-12 || std::abs(defect - pi / 2) < 1e-12);
     }
     expect_texture_unfolds(box, 0);
-    // The same scale everywhere: a triangle's part of the texture is its part of the area.
+    // The scale is the same everywhere: a triangle has the same fraction of the texture as of the
+    // area.
     for (std::size_t t = 0; t < box.triangles.size(); ++t) {
         const auto& [a, b, c] = box.texture[t];
         const double area = 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));

@@ -72,8 +72,8 @@ TEST(Simplify, KeepsEdgesOfTheCube) {
 }
 
 TEST(Simplify, FollowsThePattern) {
-    // A disc of another colour on a square: more points remain along its edge, and the area of the
-    // disc by the colours of corners hardly changes.
+    // A disc of another colour on a square: more points remain along the disc's edge, and its area,
+    // found from the colours of corners, hardly changes.
     const SurfaceMesh square = test::sheet(60, 60, [](double u, double v) {
         return Vector3d{u, v, 0};
     });

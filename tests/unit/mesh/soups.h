@@ -29,7 +29,7 @@ inline PolygonSoup cube() {
         {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}});
 }
 
-/// Adds the polygons of another soup, moved.
+/// Adds the polygons of another soup, moved by `by`.
 inline void append(PolygonSoup& soup, const PolygonSoup& other, Vector3d by = {}) {
     const auto first = static_cast<std::uint32_t>(soup.points.size());
     for (const Vector3d& p : other.points) soup.points.push_back(p + by);

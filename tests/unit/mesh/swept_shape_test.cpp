@@ -90,7 +90,8 @@ TEST(SweptShape, TubesFollowABentLine) {
     ASSERT_TRUE(mesh);
     EXPECT_TRUE(test::is_closed(*mesh));
     EXPECT_NEAR(test::volume_of(*mesh), pi * 0.04 * pi, 1e-3);
-    // s = 0 is in the direction of x, and s = 1/4 in that of z where the line goes upwards.
+    // s = 0 is in the direction of x. Where the line goes upwards, s = 1/4 is in the direction of
+    // z.
     EXPECT_LT(length(bow(0, 0) - Vector3d{0.2, 0, -1}), 1e-9);
     EXPECT_LT(length(bow(0, 0.25) - Vector3d{0, 0, -0.8}), 1e-5);
 }

@@ -35,7 +35,7 @@ TEST(PngBomb, SizesAreLookedAtBeforeAnythingIsAllocated) {
     EXPECT_THAT(pixels_of(promising(5, 1073741829, rgba16)), HasSubstr("at most 67108864"));
     EXPECT_THAT(pixels_of(promising(8192, 8192, rgba16)), HasSubstr("too short for its pixels"));
     EXPECT_THAT(pixels_of(promising(67108864, 1, rgba16)), HasSubstr("too short for its pixels"));
-    // A bit a pixel: little in the file, much in memory.
+    // One bit for each pixel takes little space in the file, but much memory.
     EXPECT_THAT(pixels_of(promising(8192, 8192, std::string("\x01\0\0\0\0", 5))),
                 HasSubstr("too short for its pixels"));
 }

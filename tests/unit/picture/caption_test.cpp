@@ -22,7 +22,8 @@ int pixels_of(const Image& image, const Colour& colour, std::int64_t right, std:
 TEST(Captions, LieInTheLowerLeftCorner) {
     Image image(100, 40, ground);
     draw_caption(image, "step = 20");
-    // Nine characters of six dots without the last gap, and three dots around; 9 + 6 rows.
+    // Nine characters of six columns, without the last gap, and of nine rows, with a margin of
+    // three pixels.
     const std::int64_t width = 9 * 6 - 1 + 6, height = 15;
     EXPECT_EQ(pixels_of(image, ground, width, 40 - height), 0);
     EXPECT_EQ(pixels_of(image, ground, 100, 0), 100 * 40 - width * height);

@@ -46,7 +46,7 @@ TEST(DrawingPdf, HasAreasLinesAndDiscsInPoints) {
     drawing.add(DrawnLine{{{0, 0}, {100, 100}}, {0, 0, 1}, 2, true});
     drawing.add(DrawnDisc{{50, 50}, 4, {0, 1, 0}});
     const std::string page = drawn(drawing);
-    // PDF has points of 3/4 unit, and y points upwards.
+    // In PDF, a unit of the drawing is 3/4 point, and y points upwards.
     EXPECT_THAT(page, HasSubstr("1 0 0 rg\n15 52.5 30 15 re\nf"));
     EXPECT_THAT(page, HasSubstr("[4 3 ] 0 d"));
     EXPECT_THAT(page, HasSubstr("75 0 l\nS"));

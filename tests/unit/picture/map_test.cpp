@@ -14,7 +14,8 @@ using test::blue;
 using test::green;
 using test::red;
 
-/// Position of the first pixel of a colour, row by row; −1 where there is none.
+/// The position of the first pixel of a colour in reading order, or −1, and the number of its
+/// pixels.
 struct Place {
     std::int64_t x = -1, y = -1, count = 0;
 };

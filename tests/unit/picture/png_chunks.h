@@ -48,7 +48,8 @@ inline std::string assemble(const std::vector<Chunk>& chunks) {
     return file;
 }
 
-/// The chunks of a file; empty if it is not a sequence of complete chunks with right checksums.
+/// The chunks of a file, or nothing if it is not a sequence of complete chunks with right
+/// checksums.
 inline std::vector<Chunk> take_apart(std::string_view file) {
     if (!file.starts_with(png_signature)) return {};
     std::vector<Chunk> chunks;
@@ -83,7 +84,7 @@ inline std::string inflated(const std::string& bytes, std::size_t size) {
     return status == Z_OK && out_size == size ? out : std::string();
 }
 
-/// One black grey pixel; chunks can be put before and after its data.
+/// One black grey pixel. Chunks can be put before and after its data.
 inline std::vector<Chunk> tiny_png(const std::vector<Chunk>& before = {},
                                    const std::vector<Chunk>& after = {}) {
     std::vector<Chunk> chunks{
@@ -100,7 +101,8 @@ struct DecodedPng {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
     int depth = 0;
-    int colour_type = 0;            ///< 0 is grey, 2 is red, green, blue; 4 more with alpha.
+    /// 0 for grey, 2 for red, green and blue, and 4 more with alpha.
+    int colour_type = 0;
     std::vector<unsigned> samples;  ///< Row by row, channel after channel.
 };
 

@@ -116,7 +116,7 @@ TEST(EncodePng, ValuesBeyondTheRangeAreClamped) {
 /// A picture with smooth and rough parts, so that every row filter is likely to be chosen.
 struct Sample {
     Image image;
-    std::vector<unsigned> levels;  ///< As in a file.
+    std::vector<unsigned> levels;  ///< The levels as in a file.
 };
 Sample sample(std::int64_t width, std::int64_t height, unsigned highest, bool is_grey,
               bool has_alpha) {
@@ -307,7 +307,7 @@ TEST(PngTexts, DamageIsNoticed) {
     };
     for (std::size_t size = 8; size < file.size(); ++size) expect_damaged(file.substr(0, size));
     std::string changed = file;
-    changed[file.find("iterations")] = 'I';  // Only the checksum reveals this.
+    changed[file.find("iterations")] = 'I';  // Only the checksum reveals this change.
     expect_damaged(changed);
 }
 

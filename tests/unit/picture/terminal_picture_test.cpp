@@ -82,7 +82,7 @@ TEST(HalfBlocks, WiderPicturesAreAveraged) {
 }
 
 TEST(HalfBlocks, PartsOfPixelsCountByTheirArea) {
-    // Three pixels become two: half of the middle one belongs to each. (1 + 0)/1.5 and (0 +
+    // Three pixels become two, each of which gets half of the middle pixel: (1 + 0)/1.5 and (0 +
     // 0.3)/1.5.
     Image image(3, 3);
     for (std::int64_t y = 0; y < 3; ++y) {
@@ -97,7 +97,8 @@ TEST(HalfBlocks, PartsOfPixelsCountByTheirArea) {
 
 TEST(HalfBlocks, ProportionsAndWidthAreKept) {
     const std::string text = half_blocks(Image(200, 100), 60);
-    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 15);  // 60 × 30 pixels, two a line.
+    // 60 × 30 pixels, and two rows of pixels in each line.
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 15);
     EXPECT_EQ(count_of(text, "▀"), 60 * 15);
     EXPECT_EQ(count_of(half_blocks(Image(10'000, 1), 7), "▀"), 7);
     EXPECT_EQ(count_of(half_blocks(Image(10, 10), 80), "▀"), 50);  // Nothing is enlarged.

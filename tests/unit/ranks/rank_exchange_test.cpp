@@ -28,7 +28,8 @@ Field numbered(const PlaneLayout& layout, RowRange rows) {
     return field;
 }
 
-/// The value of a cell. Rows before the first one lie in slices before the first one.
+/// The value of a cell. Rows before the first row of the field lie in slices before its first
+/// slice.
 float cell(const Field& field, std::int64_t i, std::int64_t row) {
     const PlaneLayout& layout = field.layout();
     if (layout.depth == 1) return field.at(i, row);

@@ -96,7 +96,7 @@ stage b: s {{ iterations: 3; u: a.u; v: a.v * a.v; frozen: a.v > 0.2 }}
     EXPECT_EQ(count, 96);
 }
 
-/// One rank computes these for all.
+/// One rank computes these values for all ranks.
 TEST(SharedScripts, WhatNeedsAllCells) {
     expect_same_on_ranks(R"(
 system s { u: random(0, 1); u' = lap(u) + 0.1 * (convolve(exp(-distance^2), u, 3) - u) }

@@ -27,7 +27,7 @@ protected:
     }
     ~SharedSweeps() override { std::filesystem::remove_all(folder_); }
 
-    /// Runs with 3 rates, of which one blows up, and 4 seeds.
+    /// Sweeps over 3 rates, with one of which runs blow up, and over 4 seeds.
     SweepReport sweep_on(Messenger* messenger, const std::string& name,
                          SweepControl& control) const {
         SweepRequest request;

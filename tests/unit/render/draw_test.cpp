@@ -313,8 +313,8 @@ TEST(Draw, WithoutABackgroundTheShadowIsBlackAndOverWhiteTheSame) {
     std::int64_t in_shadow = 0;
     for (std::int64_t y = 0; y < 120; ++y) {
         for (std::int64_t x = 0; x < 160; ++x) {
-            // Only pixels without the surface, since edges are mixed in sRGB in one picture and in
-            // linear light in the other.
+            // Only pixels without the surface are compared, since edges are mixed in sRGB in one
+            // picture and in linear light in the other.
             if (image.at(x, y)[0] > 0 && !is_transparent(image.at(x, y))) continue;
             const Colour over = image.over(pure_white, x, y);
             for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(over[c], on_white.at(x, y)[c], 1e-3F);
@@ -354,7 +354,7 @@ TEST(Draw, WhatIsBehindShowsThrough) {
         EXPECT_NEAR(image.opacity(80, 60), 1 - std::pow(0.5F, static_cast<float>(count)), 1e-4F);
         EXPECT_TRUE(is_red(image.at(80, 60)));
     }
-    // Opacity from 1 to 0; it equals the covered part.
+    // Opacities from 1 to 0. A pixel's opacity is the covered fraction.
     options.opacity = [](const Hit& hit) { return hit.triangle == 0 ? hit.u + hit.v : 1 - hit.u; };
     const Image slope = picture_of(walls(1), options, red, 2);
     EXPECT_TRUE(picture_of(walls(1), options, red, 1).alpha == slope.alpha);

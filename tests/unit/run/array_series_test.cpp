@@ -58,7 +58,8 @@ TEST_F(ArraySeriesTest, IsOneArrayWithTimeFirst) {
     EXPECT_THAT(header("grown.npy").shape, ElementsAre(4, 2, 4));
     const auto u = numbers<float>("grown.npy");
     ASSERT_EQ(u.size(), 4U * 8U);
-    const std::vector<int> steps = {0, 2, 4, 5};  // The last one is the end, and no interval.
+    // The last step is the end of the run, but not of an interval.
+    const std::vector<int> steps = {0, 2, 4, 5};
     for (std::size_t moment = 0; moment < 4; ++moment) {
         EXPECT_NEAR(u[moment * 8 + 7], 0.875 * std::pow(0.75, steps[moment]), 1e-6);
     }
@@ -84,7 +85,8 @@ TEST_F(ArraySeriesTest, HasTheFieldsThatAreNamed) {
     EXPECT_EQ(all[0], 0.125 - 1);
     EXPECT_EQ(all[8], 1);
     EXPECT_EQ(all[3 * 24 + 16], 0.125 * std::pow(0.75, 5));
-    EXPECT_EQ(all[4 * 24 + 16], 0.125 * std::pow(0.75, 5));  // Read by the second stage.
+    // The second stage has read this value.
+    EXPECT_EQ(all[4 * 24 + 16], 0.125 * std::pow(0.75, 5));
     const nlohmann::json about = json("grown.json");
     EXPECT_EQ(about["axes"], nlohmann::json({"time", "field", "row", "column"}));
     EXPECT_EQ(about["moments"][4]["stage"], "next");

@@ -33,7 +33,7 @@ TEST(AutomaticSpeed, ReactionLimitsStepsAsToleranceDoes) {
     constexpr double usual = StageTime::default_automatic_tolerance;
     for (const Solver solver : {Solver::rkl1, Solver::rkl2, Solver::imex, Solver::etdrk4}) {
         EXPECT_EQ(reaction_part_at(solver, usual), reaction_part) << name_of(solver);
-        // Half the step's length divides the error by 2^k, where k is the order of the estimate.
+        // Halving the step divides the error by 2^k, where k is the order of the estimate.
         const double shorter = usual * std::pow(0.5, order_of_estimate(solver));
         EXPECT_NEAR(reaction_part_at(solver, shorter), reaction_part / 2, 1e-12);
     }

@@ -1,4 +1,4 @@
-// The work of a step against counts by hand, and what limits the speed of steps.
+// The work of a step, compared with counts by hand, and what limits the speed of steps.
 #include "run/commands/bench.h"
 #include "run/simulation/stage_tools.h"
 #include "run/stage/step_work.h"
@@ -188,7 +188,7 @@ TEST(Bounds, TilesShareTheBytesOfMemoryAndAreFedByACache) {
     bench.work.working_set = 1e6;
     bench.threads = 2;
     bench.stepping.sweeps_at_once = 16;
-    bench.stepping.bytes_in_use = 4000;  // Of each thread: 8000 are in the second-level cache.
+    bench.stepping.bytes_in_use = 4000;  // For each of two threads: 8000 bytes are in use.
     const auto bounds = bounds_of(bench);
     ASSERT_EQ(bounds.size(), 4u);
     EXPECT_EQ(bounds[2].name, "tiles, second-level cache");

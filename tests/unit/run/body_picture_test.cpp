@@ -1,4 +1,5 @@
-// Volumes that are drawn as bodies: their surfaces against theory, pictures, frames and files.
+// Volumes that are drawn as bodies: their surfaces, compared with theory, and pictures, frames and
+// files.
 #include "run/pictures/body_picture.h"
 
 #include "export/model_writer.h"

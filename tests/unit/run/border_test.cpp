@@ -1,4 +1,5 @@
-// The border of a mask with values, slopes and fluxes: against sides of a grid, and against theory.
+// The border of a mask with values, slopes and fluxes, compared with sides of a grid and with
+// theory.
 
 #include "box_runs.h"
 

@@ -1,6 +1,6 @@
-// Rules at the sides of the domain against calculus: manufactured solutions for every kind of side
-// and operator, values that change with time under every solver, and the same bits however steps
-// are taken. Solutions in closed form are in tests/scripts/boundaries.
+// Rules at the sides of the domain, compared with calculus: manufactured solutions for every kind
+// of side and operator, and values that change with time under every solver. The bits must be the
+// same however steps are taken. Solutions in closed form are in tests/scripts/boundaries.
 #include "run/simulation/simulation.h"
 
 #include "run/script/script.h"
@@ -42,7 +42,7 @@ struct Solution {
     const char* name;
     const char* definitions;  ///< w, w_t, w_x, …
     const char* sides;
-    std::function<double(double, double, double)> value;  ///< Of x, y, t.
+    std::function<double(double, double, double)> value;  ///< The solution at x, y, t.
 };
 
 Solution wave_of(const char* name, const char* sides) {
@@ -109,8 +109,8 @@ double error_of(const Solution& solution, const OperatorCase& each, int n) {
                          [&](double x, double y) { return solution.value(x, y, 0.25); });
 }
 
-/// Mixed derivatives read cells beyond the corners, which sides with values give to first order
-/// only. A coefficient beyond a side is of first order too, because it is mirrored
+/// Mixed derivatives read cells beyond the corners, whose values are only of first order if sides
+/// have values. A coefficient beyond a side is of first order, too, because it is mirrored
 /// (spec/domain.md).
 double expected_order(const Solution& solution, const OperatorCase& each) {
     const std::string where = fmt::format("{} at {}", each.name, solution.name);
@@ -295,7 +295,7 @@ TEST(BeyondSides, FunctionsAreMadeOfWhatStandsThere) {
                     1e-4);
         EXPECT_NEAR(after_a_step("lap(exp(u)) + 0 * mean(exp(u) over domain)", planning),
                     u0 + std::exp(ghost) + std::exp(u1) - 2 * std::exp(u0), 1e-4);
-        // Beyond the side, the result of the inner operator is mirrored, the species are not.
+        // Beyond the side, the result of the inner operator is mirrored, but the species are not.
         const double lap0 = ghost + u1 - 2 * u0, lap1 = u0 + 1.625 - 2 * u1;
         EXPECT_NEAR(after_a_step("lap(u^2 - lap(u))", planning),
                     u0 + (ghost * ghost - lap0) + (u1 * u1 - lap1) - 2 * (u0 * u0 - lap0), 1e-4);

@@ -1,6 +1,6 @@
-// If all stages are of cells that crawl, the cells of the model are made only when something reads
-// a value in them, and the values are the same as if they had been made at the start. The tests
-// look into the cache to see whether they were made.
+// If all stages have crawling cells, the cells of the model are made only when something reads a
+// value in them, and the values are the same as if these cells had been made at the start. The
+// tests look into the cache to see whether the cells of the model were made.
 #include "ran_text.h"
 
 #include "lang/check/check.h"

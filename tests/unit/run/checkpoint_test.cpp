@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 class CheckpointTest : public ResumedRunTest {
 protected:
     /// Saves the state at every moment at which this is possible, in the folders kept0, kept1, ….
-    /// Returns their number.
+    /// Returns the number of folders.
     int keep_all(const std::string& text) {
         Script script = load(text);
         auto made = Simulation::create(script, request().simulation);

@@ -1,5 +1,5 @@
-// Stages on coarser grids: they take the steps of a domain with that grid, a run may be stopped in
-// them, and they may be painted and drawn with --detail. Their values are tested in
+// Stages on coarser grids take the same steps as in a domain with that grid. A run may be stopped
+// in them, and they may be painted and drawn with --detail. Their values are tested in
 // tests/scripts/steps.
 #include "detailed_simulations.h"
 #include "ran_text.h"

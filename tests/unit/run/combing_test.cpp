@@ -56,8 +56,9 @@ struct Singularities {
     int count = 0;  ///< The number of triangles with an index.
 };
 
-/// The field turns along the border of a triangle by 2π times the index of the singular place
-/// inside, and by a small angle that comes from the curvature of the surface.
+/// Finds the triangles with a singular place. Along the border of a triangle, the field turns by 2π
+/// times the index of the singular place inside, and by a small angle that comes from the curvature
+/// of the surface.
 Singularities singularities(const SurfaceMesh& mesh, const std::vector<Vector3d>& normals,
                             const std::vector<Vector3d>& directions) {
     Singularities result;

@@ -95,7 +95,7 @@ protected:
         run_well(script, wanted);
     }
 
-    /// Runs the program, and expects the species of the run that was saved in "end".
+    /// Runs the program, and expects the bits of the run that was saved in "end".
     void expect_same_bits(const std::string& stage, const std::vector<std::string>& species,
                           const std::string& steps) {
         ASSERT_EQ(command("./program " + steps + " > out.raw"), 0);
@@ -309,7 +309,7 @@ TEST_F(CompileTest, FrozenCellsKeepTheirValues) {
     expect_bits_of_run(replaced(timed_rates, "SOLVER", "frozen: x < 0.3; solver: rk4"), {"u", "v"});
 }
 
-// Diffusion alone: a run chooses the same number of stages throughout.
+// With diffusion alone, a run chooses the same number of stages throughout.
 TEST_F(CompileTest, StagesOfStabilisedSolvers) {
     const std::string text = R"(
 system spread {

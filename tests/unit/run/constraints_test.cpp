@@ -1,5 +1,5 @@
-// Fields of constraints against known solutions: the order of the error where coefficients vary,
-// and the same bits from any number of threads.
+// Fields of constraints, compared with known solutions: the order of the error where coefficients
+// vary. Any number of threads must give the same bits.
 #include "run/simulation/simulation.h"
 
 #include "run/script/script.h"

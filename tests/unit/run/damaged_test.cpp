@@ -28,7 +28,8 @@ protected:
         run_well(script, wanted);
     }
 
-    /// Resumes the saved run with its manifest changed; returns why it cannot be.
+    /// Changes the manifest of the saved run, tries to resume it, and returns the reason for the
+    /// refusal.
     std::string resume_with(const std::function<void(nlohmann::json&)>& change) {
         save();
         auto manifest = nlohmann::json::parse(bytes("saved/run.json"));

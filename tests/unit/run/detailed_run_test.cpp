@@ -91,7 +91,7 @@ TEST_F(DetailedRunTest, ResumesToTheSamePicture) {
     first.save = path("part");
     first.stop_at = StopAt{"small", 70};
     run_well(part, first);
-    EXPECT_EQ(size_of("part.png"), std::pair(24, 18));  // Stopped, so in its own cells.
+    EXPECT_EQ(size_of("part.png"), std::pair(24, 18));  // A stopped run is drawn in its own cells.
     auto rest = load_saved_script(path("part"), {});
     ASSERT_TRUE(rest);
     RunRequest second = detailed("rest.png");

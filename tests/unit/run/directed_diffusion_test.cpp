@@ -35,7 +35,7 @@ std::string square(int n) {
 
 class DirectedDiffusionTest : public RunTest {
 protected:
-    /// One stage of `steps` steps on a domain.
+    /// Runs one stage of `steps` steps on a domain.
     void run(const std::string& domain, const std::string& system, double speed, int steps,
              std::string_view backend = "interp", const char* precision = "double") {
         script_ = std::make_unique<Script>(
@@ -135,7 +135,8 @@ TEST_F(DirectedDiffusionTest, AWaveAroundASphereDecaysAsItShould) {
 }
 
 TEST_F(DirectedDiffusionTest, IsTheSameForATensorThatOnlySeemsToChange) {
-    // Rates by weights that are computed once, and by gradients in each step.
+    // u has weights that are computed once. The coefficient of w reads a species, so w needs
+    // gradients in each step.
     run("surface: creature; cells: 2000",
         "u: noise(0.3)\n w: u\n one: 1\n theta: along(axis(0, 1, 0))\n"
         "u' = diffuse(u, 1.5, 1, theta)\n w' = diffuse(w, 1.5 * one, 1, theta)\n one' = 0",
@@ -238,13 +239,13 @@ TEST_F(DirectedDiffusionTest, FollowsAFieldThatTurns) {
         apart = std::max(apart, std::abs(after_[1][k] - before_[1][k]));
         ASSERT_NEAR(after_[1][k], after_[3][k], 1e-9);
     }
-    // A tensor that turns has another formula than one that does not.
+    // Another formula computes a tensor that may turn, so the results differ a little.
     EXPECT_LT(largest, 0.2 * apart);
 }
 
 TEST_F(DirectedDiffusionTest, AFluxOfAnyVectorIsItsDivergence) {
-    // Σ (n × x) · z is a turn about the axis, without a divergence; the tangential part of x - c
-    // has the divergence 2 - 2 |x - c| / R = 0 on a sphere about c, and z ∇z has |∇z|² - 2 z² / R².
+    // Σ (n × x) · z is a turn about the axis, without a divergence. The tangential part of x − c
+    // has the divergence 2 − 2 |x − c| / R = 0 on a sphere about c. z ∇z has |∇z|² − 2 z² / R².
     run("surface: sphere; cells: 6000; unit: 1",
         "turn: 0\n stay: 0\n rise: 0\n px: nx\n py: ny\n pz: nz\n"
         "turn' = div(vector(-ny, nx, 0))\n stay' = div(vector(nx, ny, nz))\n"

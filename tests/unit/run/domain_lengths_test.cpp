@@ -1,4 +1,4 @@
-// Lengths of the domain and integrals in runs, against closed forms, on grids of any size.
+// Lengths of the domain and integrals in runs, compared with closed forms, on grids of any size.
 #include "unit/run/ran_text.h"
 
 #include <gtest/gtest.h>

@@ -30,7 +30,7 @@ std::vector<Variation> varied(const std::vector<std::string>& texts) {
     return all;
 }
 
-/// The cells of the first row of a table with these values of its first cells.
+/// The cells of the first row of a table that begins with these cells.
 std::vector<std::string> row_of(const std::string& table, const std::vector<std::string>& begins) {
     const auto rows = read_csv(table);
     for (const auto& row : *rows) {

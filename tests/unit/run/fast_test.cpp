@@ -1,5 +1,5 @@
-// Runs with --fast: their bits differ from other runs, but are the same with any number of
-// threads and after the run was resumed.
+// Runs with --fast: their bits differ from the bits of other runs, but are the same with any number
+// of threads and after the run was resumed.
 #include "resumed_run.h"
 
 #include "ir/multiply_add.h"
@@ -35,7 +35,7 @@ protected:
         fast_.fast = true;
     }
 
-    /// Runs and saves in a folder of the test.
+    /// Runs the script, and saves the run in a folder of the test.
     void save(const std::string& name, const Overrides& overrides,
               const SimulationOptions& simulation = {"interp", 0, 1}) {
         Script script = load(mixed, overrides);

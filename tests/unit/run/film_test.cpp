@@ -97,7 +97,8 @@ TEST_F(FilmRun, HasThePixelsOfFrames) {
         const auto frames = sorted("frames");
         const Film film = read_gif(path("a.gif"));
         EXPECT_EQ(film.width, 48);
-        ASSERT_EQ(film.frames.size(), 8U);  // 0, 100, 200, 300, and 50, 100, 150, 200.
+        // The steps 0, 100, 200, 300 of the first stage, and 50, 100, 150, 200 of the second.
+        ASSERT_EQ(film.frames.size(), 8U);
         ASSERT_EQ(frames.size(), 8U);
         for (std::size_t k = 0; k < frames.size(); ++k) {
             EXPECT_EQ(film.frames[k], levels(frames[k])) << frames[k];

@@ -177,8 +177,8 @@ TEST(FinerCells, EverySolverStaysStable) {
     }
 }
 
-/// Diffusion limits the step in one half of the domain. In the other half there is none, and the
-/// bound of the reaction, which has become large by then, must not hide that limit.
+/// Diffusion limits the step in one half of the domain. There is no diffusion in the other half.
+/// The bound of its reaction, which has become large by then, must not hide the limit of diffusion.
 TEST(FinerCells, StepsAreSplitByTheDiffusionOfEachCell) {
     const Runs runs(
         "system s {\n  u: 0.1 * noise(0.2)\n  m: 0\n  d: 0.24 * (x > 0.5)\n"
@@ -229,7 +229,8 @@ TEST(FinerCells, SurfacesKeepTheirUnit) {
         const auto number = [&](const Simulation& of) {
             return of.state(0).numbers[Runs::item(of, "a")];
         };
-        const double cells = unit == "; metric: 0" ? 4 : 1;  // Cells are counted, or areas summed.
+        // With `metric: 0` the sum counts cells, otherwise it adds areas.
+        const double cells = unit == "; metric: 0" ? 4 : 1;
         EXPECT_NEAR(number(*runs.finer) / number(*runs.coarse), cells, 0.01) << unit;
         const Runs fine("system s {\n  u: cos(2 * pi * sy)\n  u' = lap(u)\n}\ndomain { " + torus +
                             unit + " }\nstage one: s { iterations: 33; speed: 0.05 }",
@@ -269,7 +270,8 @@ std::pair<double, double> error_on_sphere(int cells) {
 TEST(FinerCells, AreOfSecondOrderOnModels) {
     const auto [coarse_worst, coarse_mean] = error_on_sphere(600);
     const auto [fine_worst, fine_mean] = error_on_sphere(2400);
-    EXPECT_LT(fine_mean, coarse_mean / 3.5);  // Half the width of cells gives a quarter of it.
+    // Cells of half the width give a quarter of the error.
+    EXPECT_LT(fine_mean, coarse_mean / 3.5);
     EXPECT_LT(fine_worst, coarse_worst / 2.5);
     EXPECT_LT(coarse_mean, 0.01);
 }

@@ -1,4 +1,4 @@
-// Random numbers of late steps, whose numbers need more binary digits than binary32 has.
+// Random numbers of late steps, whose step numbers need more binary digits than binary32 has.
 #include "run/simulation/stage_record.h"
 #include "started_script.h"
 

@@ -15,7 +15,7 @@
 
 namespace cascade::test {
 
-/// The text with the first `old` replaced. The text must contain `old`.
+/// The text with `changed` in place of the first `old`, which the text must contain.
 inline std::string with(std::string text, const std::string& old, const std::string& changed) {
     return text.replace(text.find(old), old.size(), changed);
 }

@@ -134,7 +134,7 @@ TEST_F(LiveRunTest, AModelThatTakesTooLongIsRefused) {
     EXPECT_NE(why.find("the cells of the model were not finished after 1e-06 s"), std::string::npos)
         << why;
     EXPECT_NE(why.find("--simplify"), std::string::npos) << why;
-    // Nothing is cancelled after that.
+    // Later commands are not cancelled.
     advance(*run, 2);
     EXPECT_EQ(run->place().steps, 2);
     run->limit_models(0);

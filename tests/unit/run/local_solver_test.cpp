@@ -95,8 +95,8 @@ TEST(LocalSolver, EndsWhatDecaysFasterThanAStep) {
     EXPECT_LT(std::abs(ran.species().number_at(0, 0)), 1e-5);
 }
 
-/// At this length of step the equation for u alone is singular, but that for u and v together is
-/// not.
+/// At this length of step the equation for u alone is singular, but the equations for u and v
+/// together are not.
 TEST(LocalSolver, ExchangesEquationsWhereAPivotVanishes) {
     const double growth = 1 / (1 - std::numbers::sqrt2 / 2);
     const Ran ran = run_system(

@@ -200,7 +200,7 @@ TEST_F(RunTest, MemoryCountsWhatSolversAndSurfacesKeep) {
         return memory_of(*script.program) / (4.0 * static_cast<double>(layout.size()));
     };
     const double plain = planes("", "");
-    EXPECT_GE(planes("", "solver: rk45"), plain + 2 * 6);  // Six rates of two species at least.
+    EXPECT_GE(planes("", "solver: rk45"), plain + 2 * 6);  // At least six rates of two species.
     // The stages of two species, and the rates of the old step.
     EXPECT_GE(planes("", "solver: rkl1"), plain + 2 + 2);
     EXPECT_EQ(planes("", "solver: rkl2"), planes("", "solver: rkl1") + 2);
@@ -225,7 +225,8 @@ TEST_F(RunTest, FeaturesOfWhatIsShown) {
 }
 
 TEST_F(RunTest, FeaturesOfAVolume) {
-    // Two balls in a periodic box, one of them across its far side; the picture's slice cuts one.
+    // Two balls in a periodic box, one of them across its far side. The slice that pictures show
+    // cuts only one ball.
     Script script = load(
         "domain { grid: 16, 16, 32; spacing: 0.5 }\n"
         "system s { u: ((x - 0.25)^2 + (y - 0.25)^2 + (z - 0.5)^2 < 0.02) +\n"

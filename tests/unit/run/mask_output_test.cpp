@@ -13,7 +13,7 @@
 namespace cascade {
 namespace {
 
-/// A disc of 12 × 12 cells or so, in two stages.
+/// A disc of about 12 × 12 cells, in two stages.
 constexpr const char* disc_in_two_stages = R"(
 domain { grid: 20, 16; mask: disc(0.5, 0.4, 0.3) }
 stage first: turing_spots { iterations: 60; interval: 20; ka: 0.2/16 }

@@ -60,7 +60,7 @@ TEST(ModelNorms, StepsAreChosenByTheErrorsOfCells) {
     run.start();
     const ModelCells& model = *run.simulation().domain().model->cells;
     ASSERT_EQ(model.grid().cell_count(), 1024);
-    // In the order of memory, in which the last cell is the one that is copied.
+    // The values are in the order of memory, in which copies of the last cell follow it.
     const std::vector<double> values = run.values("u");
     std::vector<double> start;
     for (std::size_t k = 0; k < cells_in_two_rows; ++k)
@@ -72,7 +72,8 @@ TEST(ModelNorms, StepsAreChosenByTheErrorsOfCells) {
         << "copies that count are seen";
 }
 
-/// The step after which a stage has settled, judged by the fields that `look` makes of its planes.
+/// The step after which a stage has settled, judged by the fields that `look` makes of the stage's
+/// planes.
 template <typename Look>
 std::int64_t settled_by_hand(const std::string& system, double tolerance, const Look& look) {
     ModelRun run(script_on_sphere(system, "iterations: 10000; speed: 1"), Precision::binary64);

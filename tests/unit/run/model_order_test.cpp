@@ -1,5 +1,5 @@
-// The cells of a model lie in memory in the order in which steps are fastest. No result shows it:
-// files, random numbers and sums follow the cells' own order.
+// The cells of a model lie in memory in the order in which steps are fastest. No result depends on
+// this order: files, random numbers and sums follow the cells' own order.
 #include "mesh/flat.h"
 #include "run/domain/model_cells.h"
 #include "started_script.h"
@@ -74,7 +74,7 @@ TEST(ModelOrder, RowsOfFilesComeBackAsTheyWere) {
 }
 
 /// Compares with a loop in single precision over the cells in their own order, and over the edges
-/// in theirs.
+/// in their own order.
 TEST(ModelOrder, StepsAreThoseOfALoopOverTheCellsInTheirOwnOrder) {
     Script script = load(on_sphere("  u: random(0, 1)\n  u' = lap(u)\n"));
     const auto simulation = start(script);

@@ -65,7 +65,7 @@ public:
                            *simulation_->domain().model->cells);
     }
 
-    /// Σ area · item, in square units; of areas alone where no item is named.
+    /// Σ area · item, in square units. Without a name, the sum of the areas.
     double area_sum(const std::string& name) const {
         const std::vector<double> each = areas();
         const std::vector<double> of =

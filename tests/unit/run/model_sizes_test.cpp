@@ -1,5 +1,5 @@
 // Models whose cells do not fill the last row of memory: every function is finite in that row, and
-// the copies that fill it count nowhere.
+// the copies that fill the row count nowhere.
 #include "model_runs.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// Equations on models against calculus, from the text of a script to numbers.
+// Equations on models, compared with calculus, from the text of a script to numbers.
 #include "model_runs.h"
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@ namespace {
 
 using test::ModelRun;
 
-/// One stage whose steps are of this length.
+/// A script of one stage whose steps have this length.
 std::string script_of_steps(const std::string& domain, const std::string& system, double speed,
                             int steps) {
     return fmt::format(
@@ -109,9 +109,9 @@ double mean_size(const ModelRun& run, const std::string& name) {
 }
 
 TEST(ModelTheory, GradientsOfLinearFunctions) {
-    // x runs from 0 to 1 along the longest side, which is 2 units on a sphere of radius 1: the
-    // gradient of f in space is G = (1, -1/2, 3/2), and that on the surface is the tangential part
-    // of G.
+    // x runs from 0 to 1 along the longest side, which is 2 units on a sphere of radius 1. The
+    // gradient of f in space is G = (1, -1/2, 3/2), and the gradient on the surface is the
+    // tangential part of G.
     ModelRun sphere(script_of_steps(
         "surface: sphere; cells: 6000; unit: 1",
         "f: 2*x - y + 3*z\n n: nx - 0.5*ny + 1.5*nz\n"

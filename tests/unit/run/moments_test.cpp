@@ -32,7 +32,7 @@ protected:
         for (std::string line; std::getline(file, line);) found.push_back(line);
         return found;
     }
-    /// The last number of each line but the first.
+    /// The last number of each line except the first line.
     std::vector<double> last_column() const {
         std::vector<double> numbers;
         for (const std::string& line : lines()) {
@@ -99,7 +99,7 @@ TEST_F(MomentsTest, OfAScriptAreEndsOfSteps) {
     EXPECT_TRUE(std::filesystem::exists(path("film/0005-two-0000006.png")));
 }
 
-// A row of the log each few steps does not take the frames' moments away.
+// Rows of the log every few steps do not change the moments of the frames.
 TEST_F(MomentsTest, OfAScriptStayWithRowsOfSteps) {
     Script script = load(
         "system s { u: 1; u' = 1 }\ndomain { grid: 2, 2 }\n"
@@ -141,7 +141,7 @@ TEST_F(MomentsTest, OfAScriptSurviveAStop) {
     }
 }
 
-// The classical Runge-Kutta method and the cubic between steps are both of fourth order, rk45 and
+// The classical Runge-Kutta method and the cubic between steps are both of fourth order. rk45 and
 // its curve between steps are both of fifth order.
 TEST_F(MomentsTest, AreReadAsExactlyAsTheSolverIs) {
     const auto error = [&](const std::string& stage, const std::string& more = "") {
@@ -170,7 +170,8 @@ TEST_F(MomentsTest, AreReadAsExactlyAsTheSolverIs) {
     const double short_steps = error(judged + "speed: 0.2; largest_step: 0.2");
     EXPECT_LT(long_steps, 2e-5);
     EXPECT_NEAR(long_steps / short_steps, 32, 6);
-    // Rates that read the number of the step are not the rates of the next step.
+    // Rates that read the number of the step cannot be used again as the first rates of the next
+    // step.
     EXPECT_DOUBLE_EQ(error(judged + "speed: 0.4; largest_step: 0.4", " + 0 * step"), long_steps);
 }
 
@@ -188,7 +189,7 @@ TEST_F(MomentsTest, StayInRangeWithinLongSteps) {
     }
 }
 
-// The two cells after a division are seen from the end of its step on.
+// The two cells after a division are visible from the end of the step in which the cell divides.
 TEST_F(MomentsTest, OfCellsThatCrawlAreWithinTheirSteps) {
     Script script = load(
         "cells drift { p' = vector(0.1, 0, 0); s: 1 after divide; s' = cos(t); divide: s > 1.5 }\n"

@@ -31,7 +31,7 @@ protected:
                                      bool) const override {
         return same_bits(one.species(), other.species());
     }
-    /// Adds the log's lines for everything that the run does from now on to text_.
+    /// Adds to text_ the lines of the log for everything that the run does from now on.
     void keep_log_of(LiveRun& run) {
         run.tell([this](const SessionLog& log, RunPlace now, bool) {
             const OpenLog::Lines lines = log_.lines(log, now);

@@ -1,6 +1,6 @@
-// Operators against calculus: manufactured solutions and their orders, directions, aggregates; what
-// is conserved is tested in tests/scripts/operators. A parameter may be computed with an operator,
-// so the result of an operator can be read from a stage that has taken no step.
+// Operators, compared with calculus: manufactured solutions and their orders, directions,
+// aggregates. A parameter may be computed with an operator, so the result of an operator can be
+// read from a stage that has taken no step. tests/scripts/operators tests what operators conserve.
 #include "run/simulation/simulation.h"
 
 #include "core/grid.h"
@@ -260,7 +260,7 @@ TEST(Operators, OfTheIsotropicStencilFavourNoDirection) {
     };
     EXPECT_GT(error("cross", 0) / error("cross", 1), 1.5);
     EXPECT_NEAR(error("isotropic", 0) / error("isotropic", 1), 1, 0.02);
-    // The leading error, with 100 pi^2 in place of the Laplacian.
+    // The leading error. Each Laplacian in it multiplies the wave by −100 π².
     EXPECT_NEAR(error("isotropic", 1), std::pow(100 * pi * pi, 2) / 12 / (96 * 96), 60);
     expect_orders(
         {{"lap(f)", 2, 2,

@@ -89,7 +89,7 @@ stage one: noisy { iterations: 5 }
               1e-5);
 }
 
-/// The decay of a cosine in a row of cells, whose factor per unit of time is known.
+/// The error in the decay of a cosine in a row of cells, whose factor per unit of time is known.
 double error_of_decay(const char* solver, int steps) {
     const std::string text = fmt::format(R"(
 domain {{ grid: 32; precision: double }}

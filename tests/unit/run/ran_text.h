@@ -21,7 +21,8 @@ struct Ran {
     std::unique_ptr<Simulation> simulation;
     std::string failure;
     std::vector<std::string> warnings;
-    std::vector<std::string> ended;  ///< Stages and grids that they started on, with their steps.
+    /// Each ended stage or coarser grid of a stage, with its steps.
+    std::vector<std::string> ended;
 
     const StageState& state(std::uint32_t stage = 0) const { return simulation->state(stage); }
     const StageState& last() const {

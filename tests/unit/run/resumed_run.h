@@ -7,7 +7,7 @@ namespace cascade {
 
 class ResumedRunTest : public RunTest {
 protected:
-    /// Saves the run, from its start to its end, in "whole".
+    /// Runs a script from its start to its end, and saves the run in "whole".
     void run_whole(const std::string& text, const Overrides& overrides = {}) {
         Script script = load(text, overrides);
         RunRequest wanted = request();

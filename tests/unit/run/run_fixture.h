@@ -64,7 +64,7 @@ protected:
         return report ? *report : RunReport{};
     }
 
-    /// Runs what must fail; returns the reason and the hint.
+    /// Runs a script that must fail, and returns the reason and the hint.
     std::string run_badly(Script& script, const RunRequest& request) {
         RunControl control;
         auto report = run(script, request, control);

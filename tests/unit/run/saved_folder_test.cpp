@@ -210,7 +210,7 @@ TEST_F(SavedFolderTest, ListsOfFilesAreNotBelieved) {
     changed["files"] = nlohmann::json::array();
     ASSERT_TRUE(write_file(path("saved/run.json"), changed.dump()));
     EXPECT_THAT(why_not_resumed(), HasSubstr("does not name"));
-    // A save does not remove or rename files that such a list names, either.
+    // A save does not remove or rename files that the list in run.json names, either.
     ASSERT_TRUE(write_file(path("keep.npy"), "mine"));
     changed["files"] = {{"../keep.npy", good.at("files").at("large.b.npy")},
                         {"notes", good.at("files").at("large.b.npy")}};

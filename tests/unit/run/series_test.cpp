@@ -71,7 +71,8 @@ TEST_F(SeriesTest, HasTheEndOfEachStageOnce) {
                    "stage next: s { u: grow.u; v: grow.v; iterations: 5; "
                    "interval: 4; speed: 0.25 }\n",
                20);
-    // 0 and 2 of the first stage; 2, 3 and 3.25 of the second, whose start is a moment of its own.
+    // Steps 0 and 2 of the first stage, and 2, 3 and 3.25 of the second, whose start is also a
+    // moment.
     EXPECT_THAT(pieces(), ElementsAre("000001.vti", "000002.vti", "000003.vti", "000004.vti"));
     EXPECT_THAT(list(), HasSubstr("timestep=\"3.25\" part=\"0\" file=\"grown/000004.vti\""));
 }

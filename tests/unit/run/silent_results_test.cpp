@@ -1,6 +1,6 @@
 // Runs that succeed but show nothing, or something misleading, print a line that says so. Other
-// runs print nothing. These tests have remarks that depend on the request. Remarks that depend on
-// the script alone are tested in tests/scripts/remarks.
+// runs print nothing. The remarks that are tested here depend on the request. Remarks that depend
+// on the script alone are tested in tests/scripts/remarks.
 #include "run_fixture.h"
 
 #include "run/commands/sweep.h"

@@ -138,7 +138,7 @@ TEST(SmoothPicture, CopiesJoin) {
                 largest = std::max(largest, std::abs(image.at(x, y)[0] - image.at(x, y - 1)[0]));
         }
     }
-    EXPECT_LT(largest, 0.08F);  // 0.5 · 2π/48 at the steepest place; no jump at seams.
+    EXPECT_LT(largest, 0.08F);  // The largest slope is 0.5 · 2π/48, and there is no jump at seams.
     PictureRequest squares;
     squares.copies = {2, 1};
     squares.scale = 3;

@@ -1,6 +1,6 @@
-// Solvers in scripts: orders against known solutions, stabilised solvers against Euler's method,
-// and the same bits after a run is resumed. The bits of all executors, the ends of stages and
-// conserved energy are tested in tests/scripts/steps.
+// Solvers in scripts: orders, compared with known solutions, stabilised solvers, compared with
+// Euler's method, and the same bits after a run is resumed. The bits of all executors, the ends of
+// stages and conserved energy are tested in tests/scripts/steps.
 #include "ran_text.h"
 #include "resumed_run.h"
 
@@ -125,7 +125,7 @@ TEST(Solvers, LegendreTakesNestedOperatorsInStages) {
         EXPECT_LT(legendre.state().steps * (legendre.state().time.stages + 2), 1400) << solver;
         const Field& a = euler.state().species()[0];
         const Field& b = legendre.state().species()[0];
-        EXPECT_NEAR(moments(b).mean, moments(a).mean, 1e-5) << solver;  // Nothing is lost.
+        EXPECT_NEAR(moments(b).mean, moments(a).mean, 1e-5) << solver;  // The total is conserved.
         const double difference =
             moments_of_difference(a, b).root_mean_square / moments(a).deviation;
         EXPECT_LT(difference, std::sqrt(2 * (1 - 0.95))) << solver;

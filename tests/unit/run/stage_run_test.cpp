@@ -100,7 +100,7 @@ TEST_F(RunningStage, RemarksChangeNoBits) {
     EXPECT_EQ(remark_on(*first, 0), remark_on(*second, 0));
 }
 
-// Values at sides that vary along the side, that change with time, or both.
+// Values at sides that vary along the side, change with time, or do both.
 constexpr const char* held_at_sides =
     "domain { grid: 20, 16; boundary: noflux }\n"
     "system s { u: 1 + x; u' = 0.1 * lap(u)\n"

@@ -31,10 +31,9 @@ double wavelength_of(const Ran& ran) {
     return measure::peak_wavelength(measure::in_wide_rings(measure::radial_spectrum(samples)));
 }
 
-/// The wave number of a field on a model, in 1 / units: that of the peak of its spectrum, as on the
-/// plane. The power at each eigenvalue −k² of the discrete Laplacian follows from the moments
-/// ⟨u, Tₙ(L) u⟩ of Chebyshev polynomials (A. Weiße et al., Reviews of Modern Physics 78, 275,
-/// 2006).
+/// The wavelength of a field on a model, in units: that of the peak of its spectrum, as on the
+/// plane. The power at each eigenvalue −k² of the discrete Laplacian follows from the moments ⟨u,
+/// Tₙ(L) u⟩ of Chebyshev polynomials (A. Weiße et al., Reviews of Modern Physics 78, 275, 2006).
 double wavelength_on(const ModelCells& model, std::vector<double> values) {
     const SpreadCells& spread = model.spread();
     const SurfaceCells& cells = spread.cells;
@@ -48,7 +47,7 @@ double wavelength_on(const ModelCells& model, std::vector<double> values) {
         most = std::max(most, 2 * weight / cells.areas[i]);
     }
     for (double& value : values) value -= sum / area;
-    // x = 2 (−L) / most − 1 from −1, long waves, to 1.
+    // x = 2 (−L) / most − 1, from −1 for long waves to 1 for short waves.
     const auto times_x = [&](const std::vector<double>& v) {
         std::vector<double> result(count);
         for (std::size_t i = 0; i < count; ++i) {
@@ -75,7 +74,7 @@ double wavelength_on(const ModelCells& model, std::vector<double> values) {
         before = std::exchange(now, std::move(next));
         moment.push_back(product(now));
     }
-    // Power by the angle of x = −cos θ, with Jackson's kernel against ringing.
+    // The power as a function of the angle θ in x = −cos θ, with Jackson's kernel against ringing.
     using std::numbers::pi;
     std::vector<double> power(angles), wave(angles);
     for (int a = 0; a < angles; ++a) {
@@ -89,7 +88,8 @@ double wavelength_on(const ModelCells& model, std::vector<double> values) {
         }
         wave[a] = std::sqrt((1 - std::cos(theta)) / 2 * most) * spread.unit;
     }
-    // The peak as in measure/spectrum.cpp. A finite number of moments has smoothed it.
+    // The peak is found as in measure/spectrum.cpp. It is smooth, because the number of moments is
+    // finite.
     const auto peak = std::max_element(power.begin(), power.end()) - power.begin();
     double whole = 0, first = 0;
     for (int a = 0; a < angles; ++a) {

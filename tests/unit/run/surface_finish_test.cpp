@@ -51,7 +51,7 @@ TEST(SurfaceFinish, RaisesTheOuterSide) {
         return Position{std::cos(2 * pi * s), std::sin(2 * pi * s), 3 * t};
     };
     const SurfaceFunction turned = [&](double s, double t) { return tube(s, 1 - t); };
-    // A ridge along the tube, the same for both. The normals of the meshes are opposite.
+    // Both meshes have the same ridge along the tube, but opposite normals.
     std::vector<float> ridge(columns * rows, 0.0F);
     for (int row = 0; row < rows; ++row) ridge[static_cast<std::size_t>(row * columns + 2)] = 1;
     GridMaterial grid = material_of(ridge);

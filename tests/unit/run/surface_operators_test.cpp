@@ -1,4 +1,5 @@
-// Operators on a surface against calculus. The surface is the plane itself in bent coordinates,
+// Operators on a surface, compared with calculus. The surface is the plane itself in bent
+// coordinates,
 //
 //     X = sx + a sin 2π sy,   Y = sy + a sin 2π sx,
 //
@@ -40,7 +41,7 @@ double area(double sx, double sy) {
 }
 double dot(Vector2 a, Vector2 b) { return a[0] * b[0] + a[1] * b[1]; }
 
-/// The directions along a row of cells and at a right angle to it.
+/// The unit vectors along a row of cells (first) and at a right angle to it (second).
 Vector2 first(double sx, double sy) {
     const Vector2 a = along_sx(sx, sy);
     const double size = std::hypot(a[0], a[1]);

@@ -1,5 +1,5 @@
-// Distances that strokes and pictures of a model read once: their memory is bounded, and only the
-// needed ones are computed.
+// Distances that strokes and pictures of a model read only once: their memory is bounded, and only
+// the needed distances are computed.
 #include "run/domain/surface_values.h"
 #include "run/session/live_run.h"
 

@@ -126,7 +126,7 @@ TEST_F(SurfaceValuesTest, APlaceSaysWhereInAPicture) {
     }
 }
 
-/// A ball of radius 8 in the middle of 24 x 24 x 24 cells; a bar of 12 x 6 x 6 cells, which the
+/// A ball of radius 8 in the middle of 24 × 24 × 24 cells, and a bar of 12 × 6 × 6 cells, which the
 /// sides of its array close.
 TEST_F(SurfaceValuesTest, AVolumeGivesTheSurfaceOfAModel) {
     Field ball{PlaneLayout(Grid{24, 24, {}, 24})}, bar{PlaneLayout(Grid{12, 6, {}, 6})};

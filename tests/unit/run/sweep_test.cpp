@@ -120,7 +120,7 @@ TEST_F(SweepTest, EveryRunIsTheSameAsAlone) {
     const auto in_sweep = array("sweep/fields/turing_spots.ka=1_10,seed=2/s.b.npy");
     ASSERT_EQ(in_sweep.size(), 32u * 24u);
     EXPECT_EQ(in_sweep, array("alone/s.b.npy"));
-    // Its features are those of the single run, too.
+    // This run of the sweep has the features of the single run, too.
     const auto lines = table();
     ASSERT_EQ(lines.size(), 5u);
     EXPECT_THAT(lines[0], StartsWith("turing_spots.ka,seed,wavelength,spots,"));
@@ -355,7 +355,7 @@ protected:
         EXPECT_TRUE(write_file(path("sets.csv"), text));
         return read_parameter_sets(path("sets.csv"));
     }
-    /// The message about a fault of a text, without the file name that it begins with.
+    /// The message about a fault of a text, without the file name at its beginning.
     std::string fault_of(const std::string& text) const {
         const auto sets = read(text);
         EXPECT_FALSE(sets) << text;

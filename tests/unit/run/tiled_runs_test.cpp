@@ -28,7 +28,7 @@ struct TiledRun {
     StageEnd end = StageEnd::finished;
 };
 
-/// How a run is stepped.
+/// How a run takes its steps.
 struct Way {
     std::string_view backend = "interp";
     int threads = 1;
@@ -80,7 +80,7 @@ std::unique_ptr<TiledRun> run_in_tiles(const std::string& text, const Way& way) 
     return run_in_tiles(text, way, control);
 }
 
-/// The words of all cells of all species; every NaN is the same.
+/// The words of all cells of all species. All NaN have the same word.
 std::vector<std::uint64_t> words_of(const TiledRun& ran) {
     std::vector<std::uint64_t> words;
     if (!ran.simulation) return words;
@@ -279,7 +279,7 @@ TEST(TiledRuns, ACancelLeavesACompleteStep) {
     for (const int threads : {1, 3}) {
         RunControl control;
         int seen = 0;
-        // Reports come from the time loop about ten times a second and at once.
+        // The time loop reports at once, and then about ten times a second.
         control.report = [&](const Progress& progress) {
             if (progress.step > 0 && ++seen == 2) control.cancel = true;
         };

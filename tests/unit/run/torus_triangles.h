@@ -83,8 +83,8 @@ public:
         return made;
     }
 
-    /// Cuts one in eight thousand triangles into three around a point near a corner. Two of them
-    /// are slivers.
+    /// Cuts one in eight thousand triangles into three around a point near a corner, so that two of
+    /// the three are slivers.
     Triangles with_few_slivers() const {
         Triangles made = *this;
         for (std::size_t n = 0; n < triangles_.size(); n += 8000) made.cut(n, {1, 1e-3, 1e-3});

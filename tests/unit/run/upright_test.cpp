@@ -199,8 +199,8 @@ TEST_F(Upright, PicturesShowItUpright) {
 TEST_F(Upright, FilesHaveTheCoordinatesOfTheModelsOwn) {
     const auto original = read_model(path("z.obj"));
     ASSERT_TRUE(original);
-    // Cells at the points of the mesh do not depend on the axis, so the two runs differ in nothing
-    // else.
+    // Cells at the points of the mesh do not depend on the axis, so only the axis can make files
+    // differ.
     for (const auto& [up, stands] :
          {std::pair("y", "up: y"), std::pair("z", "up: z"), std::pair("x", "up: x; facing: -z")}) {
         Script script = load(fmt::format("domain {{ mesh: \"z.obj\"; cells: vertices; {} }}\n{}",

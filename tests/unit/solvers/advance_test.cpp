@@ -324,8 +324,8 @@ TEST(Advance, ReportsProgress) {
     EXPECT_NEAR(last.seconds_left * last.steps_per_second, 1e9, 1e9 * 0.01);
 }
 
-/// A problem whose values grow by a factor of 4 in each step where the mask is set. 1 overflows in
-/// step 64 (2^128).
+/// A problem whose values grow by a factor of 4 in each step where the mask is set. A value of 1
+/// overflows in step 64 (2^128).
 StepProblem exploding(const Grid& grid, const Mask& where) {
     StepProblem problem = make_problem(grid, 2, [](const CellView& cell, float* results) {
         results[0] = cell.field(0);
@@ -338,7 +338,7 @@ StepProblem exploding(const Grid& grid, const Mask& where) {
 TEST(Advance, NamesTheStepAndTheCellOfABlowUp) {
     const Grid grid{300, 200, Boundary::periodic};
     Mask where{PlaneLayout(grid)};
-    where.at(299, 150) = where.at(7, 151) = 1;  // The second comes later in row order.
+    where.at(299, 150) = where.at(7, 151) = 1;  // The second cell comes later in row order.
     for (const std::int64_t check_every : {1, 10, 64, 100}) {
         for (const int threads : {1, 4}) {
             for (const std::int64_t first : {0, 1000}) {

@@ -1,4 +1,4 @@
-// Kernels for tests that are C++ functions of a cell. They need no IR, so the time loop is tested
+// Kernels that are C++ functions of a cell, for tests. They need no IR, so the time loop is tested
 // without the parts of the program that make kernels.
 #pragma once
 
@@ -37,7 +37,7 @@ struct CellView {
 using CellFunction = std::function<void(const CellView& cell, float* results)>;
 
 /// Runs a CellFunction. After each row it writes NaN up to the next multiple of row_pad, as kernels
-/// may, so that reading there shows.
+/// may, so that tests notice if this memory is read.
 class CellFunctionKernel : public Kernel {
 public:
     CellFunctionKernel(CellFunction function, Stencil stencil)

@@ -1,4 +1,4 @@
-// Convolutions against sums that are written out cell by cell.
+// Convolutions, compared with sums that are written out cell by cell.
 #include "solvers/convolution.h"
 
 #include "core/plane.h"
@@ -90,8 +90,8 @@ Values scattered_values(const Grid& grid) {
 }
 
 TEST(Convolution, IsTheSumThatItsDefinitionSays) {
-    // A reach of 1.5 has few lags, which are summed directly. One of 30 goes around periodic axes
-    // more than once.
+    // A reach of 1.5 has few lags, which are summed directly. A reach of 30 goes around periodic
+    // axes more than once.
     for (const std::optional<double> reach :
          {std::optional(1.5), std::optional(4.2), std::optional(30.0), std::optional<double>()}) {
         for (const Grid& grid : grids()) {

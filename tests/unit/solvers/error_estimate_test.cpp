@@ -1,4 +1,4 @@
-// The estimate of a step's error against theory.
+// The estimate of a step's error, compared with theory.
 #include "solvers/error_estimate.h"
 
 #include "unit/solvers/scheme_runner.h"

@@ -1,4 +1,4 @@
-// The stages of etdrk4 against equations of one wave whose solution is known.
+// The stages of etdrk4, tested with equations of one wave whose solutions are known.
 #include "solvers/etd_stages.h"
 
 #include <gtest/gtest.h>
@@ -15,8 +15,8 @@ struct Found {
     double end, error;
 };
 
-/// One step of length 1 from u = 1. Diffusion gives the rate −x u, and `rest` is the rest of the
-/// rate.
+/// Takes one step of length 1 from u = 1. Diffusion gives the rate −x u, and `rest` is the rest of
+/// the rate.
 Found step(double x, const std::function<double(double u)>& rest) {
     const double along = -1, none = 0;
     double rate = 0, error = 0;

@@ -1,4 +1,4 @@
-// The time loop against the exact solution of the discrete heat equation.
+// The time loop, compared with the exact solution of the discrete heat equation.
 #include "solvers/advance.h"
 
 #include "tests/unit/solvers/cell_function_kernel.h"

@@ -1,5 +1,5 @@
-// The time loop with real cell kernels, run by the interpreter, against theory: diffusion, linear
-// growth at Turing's fixed point, and estimates of stability.
+// The time loop with real cell kernels, run by the interpreter and compared with theory: diffusion,
+// linear growth at Turing's fixed point, and estimates of stability.
 #include "solvers/advance.h"
 #include "solvers/chequerboard.h"
 #include "solvers/stability.h"
@@ -87,8 +87,8 @@ TEST(KernelPhysics, FrozenEndsMakeAStraightLine) {
     EXPECT_EQ(species[0].at(32, 0), 16.0f);
 }
 
-/// Turing's system with ka = 1/80 and beta = 12: its rates, or a step of length 1. The uniforms are
-/// diff_a and diff_b.
+/// Turing's system with ka = 1/80 and beta = 12. Computes a step of length 1 if `step`, otherwise
+/// the rates. The uniforms are diff_a and diff_b.
 StepProblem turing(const Grid& grid, float diff_a, float diff_b, bool step) {
     KernelBuilder k;
     const FieldSlot a_slot = k.field_slot("a"), b_slot = k.field_slot("b");
@@ -129,7 +129,8 @@ TEST(KernelPhysics, TuringsFixedPointStaysPut) {
 }
 
 TEST(KernelPhysics, TuringGrowsAsTheDispersionRelationSays) {
-    // Started along the eigenvector of a mode, its amplitude changes by 1 + λ each step.
+    // If a run starts along the eigenvector of a mode, the mode's amplitude is multiplied by 1 + λ
+    // in each step.
     constexpr double diff_a = 0.125, diff_b = 1.0 / 64;
     constexpr int steps = 100;
     const Grid grid{64, 48, Boundary::periodic};

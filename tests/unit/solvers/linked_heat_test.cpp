@@ -139,8 +139,8 @@ INSTANTIATE_TEST_SUITE_P(Precisions, LinkedHeat,
                              return tested.param == Precision::single ? "single" : "double";
                          });
 
-/// The fastest wave of rates f_(p-1) − 2 f_p + f_(p+1) decays at 4: Euler's steps up to 1/2 are
-/// stable.
+/// The fastest wave of rates f_(p-1) − 2 f_p + f_(p+1) decays at the rate 4, so Euler's steps up to
+/// 1/2 are stable.
 TEST(StabilityOfLinkedCells, IsThatOfTheFastestWave) {
     const Ring ring(Precision::binary64);
     KernelBuilder builder(Precision::binary64);

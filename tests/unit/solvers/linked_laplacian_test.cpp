@@ -72,8 +72,8 @@ TEST_F(Ring, IsSolved) {
     EXPECT_LT(rest(30, -2.5, true), 1e-11);
 }
 
-/// For s = 0, where u is determined only up to a constant, a hundredth of the second eigenvalue is
-/// added.
+/// For s = 0, u is determined only up to a constant. A hundredth of the second eigenvalue is then
+/// added to −Δ.
 TEST_F(Ring, IsNearlySolvedWhereAConstantIsFree) {
     EXPECT_LT(rest(0, 1, false), 0.1);
     EXPECT_GT(rest(0, 1, true), 1e-3);

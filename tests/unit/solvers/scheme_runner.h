@@ -94,7 +94,7 @@ private:
         }
     }
 
-    /// x of matrix · x = right, by elimination without pivots.
+    /// Solves matrix · x = right by elimination without pivots.
     static std::vector<double> solved(PlainMatrix matrix, std::vector<double> right) {
         const std::size_t n = right.size();
         for (std::size_t k = 0; k < n; ++k) {

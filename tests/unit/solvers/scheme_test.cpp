@@ -1,4 +1,5 @@
-// Integrators against known solutions: their orders, their stability, and what they conserve.
+// Integrators, compared with known solutions: their orders, their stability, and what they
+// conserve.
 #include "solvers/scheme.h"
 
 #include "solvers/step_control.h"

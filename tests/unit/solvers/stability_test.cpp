@@ -1,4 +1,4 @@
-// Estimates of stability against theory, and against steps that are really taken.
+// Estimates of stability, compared with theory and with steps that are really taken.
 #include "solvers/stability.h"
 
 #include "tests/unit/solvers/cell_function_kernel.h"

@@ -64,8 +64,8 @@ TEST(FieldNorms, OfADifferenceTellShiftFromShape) {
     EXPECT_NEAR(found.root_mean_square, 3, 1e-4);
 }
 
-/// The time at which a pattern given as a function of time counts as settled. It is checked every
-/// `interval` from t = 0. 0 if it has not settled by t = `last`.
+/// The time at which a pattern given as a function of time counts as settled, or 0 if it has not
+/// settled by t = `last`. It is checked every `interval` from t = 0.
 double end_of(std::int64_t side, double interval, double last, double tolerance,
               const std::function<double(double t, double x, double y)>& value) {
     const auto state = [&](double t) {
@@ -79,8 +79,8 @@ double end_of(std::int64_t side, double interval, double last, double tolerance,
     return 0;
 }
 
-/// Grows from 1e-4 to 1 at the rate 0.01. It is 1/2 at t = 921, and at t = 921 + 363 its speed is a
-/// tenth of that at t = 921.
+/// An amplitude that grows from 1e-4 to 1 at the rate 0.01. It is 1/2 at t = 921, and at t = 921 +
+/// 363 its speed is a tenth of its speed at t = 921.
 double amplitude(double t) { return 1 / (1 + 9999 * std::exp(-0.01 * t)); }
 
 TEST(Steady, EndsBehindTheGrowthWhateverTheGridAndTheLooks) {

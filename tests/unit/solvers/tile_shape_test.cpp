@@ -1,4 +1,5 @@
-// Tiles in time do every layer of every level once, and after the layers that it needs.
+// Tiles in time compute each layer of each level exactly once, and only after the layers that it
+// needs.
 #include "solvers/tile_shape.h"
 
 #include <algorithm>
@@ -33,7 +34,7 @@ int walk(const TileAxis& axis, int levels, Turns& turns) {
                     Turn& turn = turns[static_cast<std::size_t>(level)]
                                       [static_cast<std::size_t>(axis.wrapped(layer))];
                     twice += turn.phase >= 0 ? 1 : 0;
-                    // Ordered by layer + level, and for equal sums by level.
+                    // Layers are ordered by layer + level, and for equal sums by level.
                     turn = {phase, part, (layer + level) * levels + level};
                 }
             }

@@ -21,7 +21,7 @@ using Machine = std::function<double(const Tiling&, int batch)>;
 struct Spent {
     double seconds = 0;
     int batches = 0;
-    int trials = 0;  ///< Batches that were tried.
+    int trials = 0;  ///< The number of batches that were tried.
 };
 
 Spent run(TileTuner& tuner, double usual_seconds, const Machine& machine,

@@ -307,7 +307,7 @@ void compare(const Grid& grid, std::uint64_t seed) {
             << tiling.inner_layer << ", along " << static_cast<int>(tiling.along) << ", grid "
             << grid.width << " x " << grid.height << " x " << grid.depth;
         if (threads > 2) continue;
-        // Parts with halos as wide as they are.
+        // Parts that are as narrow as their halos.
         const int parts = 1 + threads;
         EXPECT_TRUE(plain == steps_of(system, tiling, 1, in_parts(parts, 1)))
             << "seed " << seed << ", " << parts << " parts, " << tiling.levels << " levels of "
@@ -344,8 +344,8 @@ TEST(TiledSteps, OnSmallGrids) {
     }
 }
 
-// Layers are columns that contain all rows. The number of columns is no multiple of a layer's
-// width, and some vectors of cells are not full.
+// If a grid has few rows, a layer is a group of neighbouring columns in all rows. Here the last
+// layer is narrower than the others, and some vectors of cells are not full.
 TEST(TiledSteps, OnFewLongRows) {
     const std::vector<GridSize> sizes{{1009, 1, 1}, {768, 1, 1}, {611, 2, 1},
                                       {523, 7, 1},  {64, 1, 1},  {409, 2, 3}};

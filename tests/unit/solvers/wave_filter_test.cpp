@@ -1,4 +1,4 @@
-// Filters against the operators that they undo. The operators are computed from neighbours and
+// Filters, tested with the operators that they undo. The operators are computed from neighbours and
 // halos, without waves.
 #include "solvers/wave_filter.h"
 
@@ -223,7 +223,8 @@ TEST(WaveFilter, UndoesDiffusionInADirection) {
     }
 }
 
-// exp(h M) u = u + h M R u, and two steps are one of twice the length.
+// R is the filter of waves with the exponential response, so exp(h M) u = u + h M R u. Two such
+// steps equal one step of twice the length.
 TEST(WaveFilter, ExponentialStepsAddUp) {
     for (const Domain& domain : domains()) {
         const auto step = [&](const Values& u, double h) {

@@ -172,18 +172,19 @@ TEST_F(CellFile, RefusesHostileNumbersWithARightChecksum) {
         put(40, count);
     }
     const std::size_t cell = 64, edges = 64 + 60 * 44;
-    put(48, -1.0);                                            // The bare area.
+    put(48, -1.0);                                            // A negative area without cells.
     put(cell, std::uint32_t{12});                             // A triangle that is not there.
     put(cell + 4, std::numeric_limits<double>::quiet_NaN());  // A weight.
     put(cell + 4, 1.5);
     put(cell + 28, std::numeric_limits<double>::infinity());  // An area.
-    put(cell + 36, std::uint64_t{1} << 50);                   // Where a cell's edges end.
+    // An end of a cell's edges beyond all edges.
+    put(cell + 36, std::uint64_t{1} << 50);
     put(cell + 59 * 44 + 36, std::uint64_t{5});
-    put(edges, std::uint32_t{0});   // An edge of cell 0 to itself,
-    put(edges, std::uint32_t{60});  // and to none.
-    put(edges + 4, 0.0);            // Its length,
-    put(edges + 4, 0.25);           // which the other cell does not have.
-    put(edges + 12, -2.0);          // Its distance.
+    put(edges, std::uint32_t{0});   // An edge from a cell to itself.
+    put(edges, std::uint32_t{60});  // An edge to no cell.
+    put(edges + 4, 0.0);            // An edge without length.
+    put(edges + 4, 0.25);           // The other cell has another length.
+    put(edges + 12, -2.0);          // A negative distance.
 }
 
 TEST_F(CellFile, CellsAreMadeOnceAndThenKept) {

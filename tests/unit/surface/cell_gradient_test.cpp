@@ -1,4 +1,4 @@
-// Gradients of cells against functions whose gradients are known.
+// Gradients of cells, compared with functions whose gradients are known.
 #include "surface/tangent_frame.h"
 #include "unit/surface/cell_gradients.h"
 #include "unit/surface/even_cells.h"
@@ -79,7 +79,8 @@ TEST(CellGradient, FirstHarmonicsOfASphereAreOfFirstOrder) {
     EXPECT_LT(errors[2], errors[1] / 1.6);
 }
 
-/// Cells in a row determine only the component of the gradient along the row. The other one is 0.
+/// Cells in a row determine only the component of the gradient along the row. The other component
+/// is 0.
 TEST(CellGradient, WhatCannotBeKnownIsZero) {
     const SurfaceMesh mesh = square();
     SurfaceCells cells;

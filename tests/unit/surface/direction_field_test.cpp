@@ -220,7 +220,7 @@ TEST(KeyDirections, WhatSaysNothingIsLeftOut) {
     const std::vector<KeyDirection> keys = {
         {{0.5, 0.5, 2}, {0, 0, 1}},  // At a right angle to the surface.
         {{0.5, 0.5, 2}, {0, 0, 0}},      {{0.5, 0.5, 2}, {NAN, 0, 0}}, {{NAN, 0.5, 2}, {1, 0, 0}},
-        {{0.5, 0.5, 2}, {0, 1e-300, 0}}, {{0.5, 0.5, 2}, {1, 0, 0}}};  // The key before wins.
+        {{0.5, 0.5, 2}, {0, 1e-300, 0}}, {{0.5, 0.5, 2}, {1, 0, 0}}};  // The earlier key wins.
     const auto field = key_directions(mesh, planes, keys, DirectionKind::arrows, never);
     expect_tangents(planes, field);
     for (std::size_t k = 0; k < planes.size(); ++k) {

@@ -1,4 +1,5 @@
-// Distances along surfaces against formulas, refined meshes, and the nearest place to a point.
+// Distances along surfaces, compared with formulas and with refined meshes, and the place on a
+// surface that is nearest to a point.
 #include "surface/distance.h"
 #include "surface/nearest_place.h"
 #include "unit/surface/even_cells.h"

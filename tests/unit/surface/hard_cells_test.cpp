@@ -71,8 +71,9 @@ TEST(HardCells, AWireLongerThanCellsReach) {
     for (const std::uint64_t count : {1, 4, 30, 2000}) expect_fine(mesh, count);
 }
 
-/// The largest quotient of a cell's sum of edge weights and its area in mean areas. It is 3.46 for
-/// regular hexagons, and steps of diffusion must be shorter by the same factor.
+/// The largest quotient of the sum of a cell's edge weights and the cell's area, where the unit of
+/// area is the mean area of the cells. It is 3.46 for regular hexagons, and steps of diffusion must
+/// be shorter by the same factor.
 double largest_weight(const SurfaceCells& cells) {
     double total = 0, largest = 0;
     for (const double area : cells.areas) total += area;

@@ -102,7 +102,8 @@ TEST(VertexCells, SphericalHarmonicsDecayAtTheirRates) {
 }
 
 TEST(VertexCells, WeightsAreTheCotangentsOnAFlatLattice) {
-    // Equilateral triangles of side 1: every weight is 1/√3, inside every area √3/2.
+    // Equilateral triangles of side 1: every weight is 1/√3, and the area of every inner cell is
+    // √3/2.
     PolygonSoup soup;
     const double height = std::sqrt(3) / 2;
     for (int j = 0; j < 6; ++j) {

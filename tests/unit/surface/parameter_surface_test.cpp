@@ -55,8 +55,8 @@ TEST(ParameterSurface, WithoutAUnitTheMeanCellHasAreaOne) {
     EXPECT_NEAR(metric->unit, std::sqrt(12 * std::numbers::pi * std::numbers::pi / 1500), 1e-9);
 }
 
-// Ṽ⁻¹ A Ṽ⁻ᵀ must, taken to the surface by J, be A in the tangent plane: for A = 1 this says
-// J (Ṽ⁻¹ Ṽ⁻ᵀ) Jᵀ is the projection on the tangent plane, so Ṽ⁻¹ Ṽ⁻ᵀ (JᵀJ) = 1.
+// Taken to the surface by J, Ṽ⁻¹ A Ṽ⁻ᵀ must be A in the tangent plane. For A = 1, J (Ṽ⁻¹ Ṽ⁻ᵀ) Jᵀ
+// must be the projection on the tangent plane, so Ṽ⁻¹ Ṽ⁻ᵀ (JᵀJ) = 1.
 TEST(ParameterSurface, TheInverseUndoesShear) {
     const auto sheet = [](double sx, double sy) { return Position{4 * sx + 1.5 * sy, 2 * sy, 0}; };
     const auto metric = measure_surface(sheet, grid_of(8, 4), 1.0);

@@ -80,7 +80,7 @@ TEST(PlaceFollower, FindsPlacesThatDoNotDependOnTheWay) {
     }
 }
 
-/// Beyond the boundary the nearest place is on it.
+/// For points beyond the boundary, the nearest place is on the boundary.
 TEST(PlaceFollower, FindsTheNearestPlacesOfASheet) {
     const SurfaceMesh mesh =
         mesh_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{{0, 1, 2}}, {{0, 2, 3}}});

@@ -37,7 +37,7 @@ SurfaceMesh fine_square(std::uint32_t n) {
     return make_mesh(std::move(soup))->mesh;
 }
 
-/// Two rings apart, and a cube without its lid.
+/// Two separate rings, and a cube without its lid.
 SurfaceMesh three_pieces() {
     PolygonSoup soup = torus_soup(24, 12);
     test::append(soup, torus_soup(16, 9), {4, 0, 0});
@@ -107,7 +107,7 @@ TEST(Retile, KeepsTopologyPointsAndShape) {
     struct Case {
         SurfaceMesh mesh;
         std::size_t places;
-        double distance;  ///< Allowed, in spacings.
+        double distance;  ///< The allowed distance, in spacings.
     };
     for (const auto& [mesh, count, distance] :
          {Case{test::sphere(12), 600, 0.1}, Case{torus_mesh(40, 20), 700, 0.25},
@@ -167,7 +167,7 @@ TEST(Retile, StraightBoundariesNeedOnlyTheirCorners) {
     ASSERT_TRUE(retiled);
     expect_same_topology(mesh, *retiled, 200);
     EXPECT_NEAR(retiled->mesh.total_area(), 1, 1e-6);
-    EXPECT_LT(retiled->kept.size(), 12u);  // Of 48 at the boundary.
+    EXPECT_LT(retiled->kept.size(), 12u);  // The boundary has 48 points.
     EXPECT_GE(retiled->kept.size(), 4u);
     for (const KeptPoint& kept : retiled->kept) EXPECT_EQ(kept.why, WhyKept::boundary);
     for (const auto& [a, b, c] : retiled->mesh.triangles) {

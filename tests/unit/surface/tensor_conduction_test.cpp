@@ -118,7 +118,7 @@ TEST(TensorConduction, KeepsSumsAndBoundsWaves) {
         }
         const std::vector<double> weights = tensors.weights(low, along);
         for (std::size_t k = 0; k < each.count(); ++k) f.push_back(number());
-        // The wave that decays fastest, by repeated multiplication.
+        // Repeated multiplication gives the wave that decays fastest.
         for (int round = 0; round < 60; ++round) {
             const std::vector<double> change = rates(tensors, weights, f);
             double sum = 0, size = 0, squares = 0, product = 0;

@@ -1,5 +1,5 @@
-// Divisions and deaths: their moments against theory, and that these do not depend on anything
-// else.
+// Divisions and deaths: their moments, compared with theory, and that the moments do not depend on
+// how they are computed.
 #include "mesh/shapes.h"
 #include "tests/unit/tissue/function_rules.h"
 #include "tissue/random_direction.h"
@@ -131,8 +131,8 @@ FunctionRules ripening_on_curves() {
     return rules;
 }
 
-/// Cells divide at moments within a step, and species that start again then are integrated to its
-/// end.
+/// Cells divide at moments within a step. Species that start again then are integrated to the end
+/// of the step.
 TEST(Events, OfAStepHappenAtTheirMoments) {
     double error_before = 0;
     for (const double step : {0.4, 0.2, 0.1}) {

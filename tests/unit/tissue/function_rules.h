@@ -1,4 +1,4 @@
-// Rules of a tissue for tests that are C++ functions of a cell. They need no script, so the time
+// Rules of a tissue that are C++ functions of a cell, for tests. They need no script, so the time
 // loop is tested without the parts of the program that make kernels.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Lists of neighbours that are updated for some cells, compared with all pairs of marks.
+// Lists of neighbours that are updated for some cells, compared with a search of all pairs.
 #include "tissue/kept_lists.h"
 
 #include "tests/support/random_stream.h"

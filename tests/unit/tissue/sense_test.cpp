@@ -1,4 +1,4 @@
-// What cells sense, against theory.
+// What cells sense, compared with theory.
 #include "tissue/sense_kernel.h"
 
 #include "mesh/edge_pairs.h"

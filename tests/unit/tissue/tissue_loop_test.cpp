@@ -1,4 +1,4 @@
-// The motion of a tissue, against theory.
+// The motion of a tissue, compared with theory.
 #include "tissue/tissue_loop.h"
 
 #include "tests/unit/tissue/function_rules.h"
@@ -278,8 +278,9 @@ TEST(TissueLoop, IsCancelledBetweenSteps) {
     EXPECT_EQ(cancelled.steps, 5);
 }
 
-/// The record of a run of cells that wake up suddenly, so that several attempts at a step fail. It
-/// is cancelled in evaluation `number` of a rate, if that is above 0, and then goes on.
+/// Runs cells that wake up suddenly, so that several attempts at a step fail. If `number` is above
+/// 0, evaluation `number` of a rate cancels the run, which then goes on. Returns the record of the
+/// run.
 TissueRecord cancelled_at(std::int64_t number, std::int64_t& evaluations, std::int64_t& left_at) {
     FunctionRules rules;
     evaluations = 0;

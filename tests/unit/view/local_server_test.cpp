@@ -61,14 +61,15 @@ protected:
         own_ = fmt::format("127.0.0.1:{}", server_->port());
     }
 
-    /// The whole answer to bytes after which the server closes.
+    /// Sends bytes after which the server closes the connection, and returns the whole answer.
     std::string answer_to(std::string_view request) {
         RawClient client(server_->port());
         EXPECT_TRUE(client.send(request));
         return client.read_all();
     }
 
-    /// The answer to a request with the right host, after the headers that are added.
+    /// Sends a request that begins with this line and the right host, and ends with these headers.
+    /// Returns the answer.
     std::string answer_to(std::string_view line, std::string_view headers) {
         return answer_to(fmt::format("{} HTTP/1.1\r\nHost: {}\r\nConnection: close\r\n{}\r\n", line,
                                      own_, headers));

@@ -194,8 +194,8 @@ TEST_F(PageReply, SpectrumWithItsWavelength) {
     EXPECT_NEAR(reply["spectrum"][4].get<double>(), 0.5, 1e-6);
 }
 
-/// There are more cells than a row of memory has, and places after the last cell must not count as
-/// cells.
+/// There are more cells than a row of memory holds, and places after the last cell must not count
+/// as cells.
 TEST_F(PageReply, CellsThatCrawl) {
     begin(
         "cells dot { c: 2 + x; c' = 0; d: 1; d' = 0 }\ndomain { grid: 8, 8 }\n"
