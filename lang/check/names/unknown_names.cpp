@@ -117,9 +117,9 @@ void report_constant(Workspace& work, const Scope& scope, std::string_view name,
     }
     const bool is_growth = name == "t" && scope.subject == "unit";
     report(work, span, fmt::format("{} must be one number", scope.subject),
-           is_growth ? "a surface or model grows by its extent, the length of its longest side in "
-                       "units: write extent: 30 * exp(0.01 * t)"
-                     : "use only numbers, operators and functions of numbers");
+           is_growth
+               ? "write extent: 30 * exp(0.01 * t) for the length of the longest side in units"
+               : "use only numbers, operators and functions of numbers");
 }
 
 std::string not_a_parameter(std::string_view name, const System& system) {

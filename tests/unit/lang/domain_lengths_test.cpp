@@ -92,8 +92,8 @@ TEST(DomainLengths, ExtentsFitTheGrid) {
                 ElementsAre(HasSubstr("cells must be from 1e-15 to 1e15 long")));
     EXPECT_THAT(faults("0", "grid: 8, 8; extent: 1, 1, 1/8, 1"),
                 ElementsAre(HasSubstr("the domain has three sides at most")));
-    EXPECT_THAT(faults("0", "surface: sphere; cells: 100; extent: 10"),
-                ElementsAre(HasSubstr("a model has no extent")));
+    EXPECT_THAT(faults("0", "surface: sphere; cells: 100; extent: 10; unit: 0.1"),
+                ElementsAre(HasSubstr("can have an extent or a unit, but not both")));
     EXPECT_EQ(printed("domain.width", "grid: 3; extent: 1"), printed("1", "grid: 3; spacing: 1/3"));
 }
 

@@ -151,6 +151,25 @@ inline constexpr HintCase hint_cases_of_checks[] = {
      "system s { u: x; u' = lap(u) }\ndomain { grid: 16, 8; extent: 16 + t, 8; mask: disc(0.4, "
      "0.2, 0.2) }\nstage a: s { speed: 0.1; u.border: fixed(1) }\n"},
 
+    {"script",
+     "system s { u: x; u' = lap(u) }\ndomain { surface: sphere; cells: 100; unit: 0.3 + t }\nstage "
+     "a: s { }",
+     "write extent: 30 * exp(0.01 * t) for the length of the longest side in units",
+     "system s { u: x; u' = lap(u) }\ndomain { surface: sphere; cells: 100; extent: 30 * exp(0.01 * "
+     "t) }\nstage a: s { }"},
+    {"script",
+     "system s { u: x; u' = lap(u) }\ndomain { surface: sphere; cells: 100 }\nstage a: s { extent: "
+     "40 }",
+     "write extent: 40 in the domain, for example, for the length of the longest side",
+     "system s { u: x; u' = lap(u) }\ndomain { surface: sphere; cells: 100; extent: 40 }\nstage a: "
+     "s { extent: 50 }"},
+    {"script",
+     "system s { u: x; u' = lap(u) }\ndomain { grid: 16, 16; surface: sx, sy, 0; metric: 0; extent: "
+     "3 }\nstage a: s { }",
+     "write metric: 1 to measure lengths on the surface",
+     "system s { u: x; u' = lap(u) }\ndomain { grid: 16, 16; surface: sx, sy, 0; metric: 1; extent: "
+     "3 }\nstage a: s { }"},
+
     // Sides, surfaces and models.
     {"stage", "left: fixed(1)",
      "write SPECIES.left: … for one species, or left: … in the domain for all species",
